@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vestige/inputs.h>
+#include <vestige/math.h>
+#include <optional>
+
+/// Scattering at one surface point: the whole contract between a BRDF plugin and the engine.
+///
+/// Said once, true of every method below:
+///   * Directions are unit vectors in the local shading frame and leave the surface. The frame
+///   faces
+///     the known direction: toPrev.z > 0 always; toNext.z < 0 is the far side. The engine bends a
+///     shading normal that looks away, and discards a toNext that lies on the other side of the
+///     geometric surface than its z says (in eval, pdf and sample alike).
+///   * `toPrev` is the known direction, `toNext` the sampled one; neither means eye or light. f is
+///     defined for FLUX travelling prev -> next: without the 1/eta^2 of radiance. The engine
+///     applies etaScale() on eye paths and the shading-normal correction on particle paths.
+///   * Densities are per steradian of solid angle (1/sr). Colours are linear, in rendering space.
+///   * Textures are none of a BRDF's business: it declares inputs in its schema, and finds them in
+///     `inputs`, already evaluated and filtered over the path's footprint.
+///   * How the frame itself turns on a curved surface is the footprint module's business.
+///   * Methods are const, thread-safe and noexcept; they allocate nothing. "No sample" is an
+///     ordinary value, not an error. Unsuitable parameters were refused by the schema before.
+namespace vestige {
+
+/// The point as a BRDF sees it.
+struct ScatterPoint {
+  Vec3 toPrev;    ///< unit, local, z > 0
+  bool inside;    ///< toPrev runs inside the closed solid: behind the surface's own normal
+  Inputs inputs;  ///< in the order of the schema
+};
+
+/// The numbers a direction is drawn with: `lobe` picks among alternatives (it has no derivative),
+/// `u` moves the direction smoothly.
+struct ScatterNumbers {
+  Real lobe;  ///< [0,1)
+  Vec2 u;     ///< [0,1)^2
+};
+
+struct ScatterSample {
+  Vec3 toNext;      ///< unit, local
+  Rgb weight;       ///< f |cos| / pdf, dimensionless, finite, >= 0, without etaScale
+  Real pdf;         ///< 1/sr, > 0, of the whole BRDF at toNext; unused if specular
+  Real lobePdf;     ///< 1/sr, of the drawn lobe alone
+  Real lobeChance;  ///< (0,1], probability of drawing this lobe: fewer paths are like this one
+  int lobe;         ///< which one it was; differences are taken only within one lobe
+  bool specular;    ///< no new random variable (mirror, smooth glass); then weight = f |cos| /
+                    ///< lobeChance
+};
+
+/// First derivatives of the sampled direction, at fixed lobe. A differential travels by
+///   d(toNext) = du d(u) + dPrev d(toPrev),   all local.
+struct ScatterJacobian {
+  Mat3x2 du;   ///< [3 x 2], per unit of random number; zero if specular
+  Mat3 dPrev;  ///< [3 x 3], per radian of toPrev; applied to tangents of toPrev only
+};
+
+/// Gradient of log f (luminance of f): the relative change of the contribution, 1/rad [PD01 Eq.
+/// 12].
+struct LogGradient {
+  Vec3 dPrev, dNext;  ///< [3] each
+};
+
+class Brdf {
+ public:
+  virtual ~Brdf() = default;
+
+  /// f(toPrev, toNext) in 1/sr, without the cosine. Zero where nothing is scattered.
+  virtual Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept = 0;
+
+  /// Draws toNext; nullopt where the model absorbs. Its derivative is asked for next, so the map
+  /// from u has no pole where pdf > 0: prefer the concentric to the polar disk.
+  virtual std::optional<ScatterSample> sample(const ScatterPoint& p,
+                                              ScatterNumbers n) const noexcept = 0;
+
+  /// Density of sample() at toNext, 1/sr. Integrates over the sphere to 1 - P(nullopt or specular).
+  virtual Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept = 0;
+
+  /// Derivatives of the map inside sample(), for the numbers that it was called with [PD01 2.3].
+  /// For every lobe that is not specular: |du.c0 x du.c1| lobePdf = 1.
+  virtual ScatterJacobian sampleDerivatives(const ScatterPoint& p,
+                                            ScatterNumbers n) const noexcept = 0;
+
+  /// For any toNext, sampled or chosen by a light [PD01 Sec. 3.2]. Zero where f is zero.
+  virtual LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept = 0;
+
+  /// Radiance crosses an interface scaled by (n_prev / n_next)^2, flux does not [Vea97 5.2]. 1
+  /// where toNext stays on its side. Reciprocity then reads f(b, a) = etaScale(a, b) f(a, b).
+  virtual Real etaScale(const ScatterPoint&, Vec3 /*toNext*/) const noexcept { return 1; }
+};
+
+}  // namespace vestige

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the engine does for a plugin while it is created: files, images, messages.
+#pragma once
+#include <memory>
+#include <string>
+
+#include <vestige/pigment.h>
+
+namespace vestige {
+
+enum class Wrap { repeat, clamp, mirror };
+
+struct TextureRequest {
+  std::string file;         ///< as written in the scene
+  Span span;                ///< of that name: it is looked for beside the text that names it
+  std::string colourSpace;  ///< "" by the file's own metadata; "raw" for data
+  Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+};
+
+/// An image in rendering space. v = 0 at the bottom row, texel centres at (i + 0.5) / n.
+class Texture {
+ public:
+  virtual ~Texture() = default;
+  /// Bilinear where the footprint is below a texel, else averaged over it [any thread].
+  virtual Rgba lookup(Vec2 uv, const Vec2 dUv[2]) const noexcept = 0;
+  /// One texel of the full resolution; x, y inside the image, row 0 at the bottom [any thread].
+  virtual Rgba texel(int x, int y) const noexcept = 0;
+  virtual int width() const noexcept = 0;
+  virtual int height() const noexcept = 0;
+  virtual bool hasAlpha() const noexcept = 0;
+  /// Average of all texels.
+  virtual Rgba mean() const noexcept = 0;
+};
+
+/// Handed to a plugin's constructor. [main thread]
+class Host {
+ public:
+  virtual ~Host() = default;
+  /// Absolute name of a file that stands beside the text of `span`, or "" with `error` saying where
+  /// it was looked for.
+  virtual std::string find(const std::string& file, Span span, std::string& error) = 0;
+  /// The image, read once however often it is asked for; null with `error` saying why.
+  virtual std::shared_ptr<const Texture> texture(const TextureRequest& request,
+                                                 std::string& error) = 0;
+  /// Something the user should know that does not stop the render.
+  virtual void warn(Span span, const std::string& message) = 0;
+};
+
+}  // namespace vestige

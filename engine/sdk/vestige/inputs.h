@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// How parameters reach a plugin: `Values` once, when it is created; `Inputs` at every point,
+// already looked up in their textures.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include <vestige/schema.h>
+
+namespace vestige {
+
+/// The values of Schema::params, in that order: given, or the default; of the right type and within
+/// range, else the scene was refused before.
+class Values {
+ public:
+  Values(std::span<const Value> rows, const Affine& toWorld) : rows_(rows), toWorld_(toWorld) {}
+
+  Real real(int i) const { return Real(rows_[i].v[0]); }
+  std::int64_t integer(int i) const { return std::int64_t(rows_[i].v[0]); }
+  bool flag(int i) const { return rows_[i].v[0] != 0; }
+  Vec2 vec2(int i) const { return {Real(rows_[i].v[0]), Real(rows_[i].v[1])}; }
+  Vec3 vec3(int i) const { return {Real(rows_[i].v[0]), Real(rows_[i].v[1]), Real(rows_[i].v[2])}; }
+  Rgb rgb(int i) const { return {Real(rows_[i].v[0]), Real(rows_[i].v[1]), Real(rows_[i].v[2])}; }
+  const std::string& text(int i) const { return rows_[i].text; }
+  /// The block given, or null.
+  const Block* block(int i) const { return rows_[i].block.get(); }
+  /// Whether there is a value at all: given, or a default.
+  bool has(int i) const { return rows_[i].kind != Value::Kind::none; }
+  Span span(int i) const { return rows_[i].span; }
+  const Value& value(int i) const { return rows_[i]; }
+
+  /// From the block's own space to world space. Lights and cameras apply it themselves; shapes and
+  /// pigments are asked in their own space and must not.
+  const Affine& toWorld() const { return toWorld_; }
+
+ private:
+  std::span<const Value> rows_;
+  Affine toWorld_;
+};
+
+/// One evaluated input: a colour with alpha, or a number in v[0].
+struct InputValue {
+  Real v[4] = {0, 0, 0, 1};
+};
+
+/// More inputs than any BRDF has; the engine's own (normal map, opacity) included.
+inline constexpr int kMaxInputs = 24;
+
+/// The values of Schema::inputs at one point, in that order, filtered over the path's footprint.
+/// A view: the integrator keeps the numbers (InputBuffer).
+class Inputs {
+ public:
+  Inputs() = default;
+  explicit Inputs(const InputValue* values) : values_(values) {}
+  Real real(int i) const noexcept { return values_[i].v[0]; }
+  Rgb rgb(int i) const noexcept { return {values_[i].v[0], values_[i].v[1], values_[i].v[2]}; }
+
+ private:
+  const InputValue* values_ = nullptr;
+};
+using InputBuffer = std::array<InputValue, kMaxInputs>;
+
+}  // namespace vestige

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include <vestige/brdf.h>
+#include <vestige/camera.h>
+#include <vestige/light.h>
+#include <vestige/pigment.h>
+#include <vestige/sampler.h>
+
+/// From a ray to radiance: the contract between an integrator plugin and the engine.
+///
+/// Said once, true of every method:
+///   * Directions in SceneView are in world space and unit; `toPrev` leaves the surface.
+///   * All random numbers come from the Sampler of the PathContext: the estimate is a pure function
+///   of
+///     (pixel, sample index, seed), whichever thread asks.
+///   * estimate() and all of SceneView are thread-safe and noexcept and allocate nothing; prepare()
+///     may do what it likes, on the main thread, and use threads of its own.
+///   * An integrator returns whatever it finds; the film refuses and counts what is not finite.
+namespace vestige {
+
+/// One point where a ray met the scene: geometry only, nothing looked up yet.
+struct Surface : SurfacePoint {
+  Real distance = 0;    ///< along the ray, scene units
+  int object = -1;      ///< which placed shape: its material and its name
+  int primitive = 0;    ///< triangle, or part of an analytic shape
+  int light = -1;       ///< index into SceneView::lights() if it shines, else -1
+  int patch = -1;       ///< index into SceneView::patches()
+  Vec2 patchUv;         ///< [0,1]^2 in that patch
+  Real offset = 0;      ///< how far a new ray starts off the surface, scene units
+  bool closed = false;  ///< part of the boundary of a solid
+};
+
+/// A surface with its material looked up: what an integrator scatters at. Copying is cheap; the
+/// inputs point into the InputBuffer that shade() was given.
+struct Interaction {
+  const Brdf* brdf = nullptr;  ///< null: only emits, reflects nothing
+  ScatterPoint point;          ///< local view for the BRDF
+  Frame frame;                 ///< shading frame: n faces toPrev, s along dP/du
+  Vec3 geometricNormal;        ///< faces toPrev
+  Real opacity = 1;            ///< below 1 a path passes through with chance 1 - opacity
+  Vec3 toPrev;                 ///< world
+};
+
+struct LightChoice {
+  int light;    ///< index into lights()
+  Real chance;  ///< (0,1]
+};
+
+/// A piece of surface with an area of its own: one a triangle, one a face of an analytic shape.
+struct Patch {
+  int object;
+  Real area;  ///< world, scene units squared; infinite for a plane
+  Bounds bounds;
+  Vec3 normal;      ///< mean geometric normal, unit; zero where it has no mean (sphere)
+  bool isTriangle;  ///< patchUv are barycentric: u + v <= 1
+};
+
+/// The scene, as integrators see it.
+class SceneView {
+ public:
+  virtual ~SceneView() = default;
+
+  /// The first surface along the ray, opaque or not.
+  virtual std::optional<Surface> intersect(const Ray& ray) const noexcept = 0;
+
+  /// Share of light that gets from a surface along a direction to a distance (or out of the scene):
+  /// product of 1 - opacity, 0 behind more than 64 layers.
+  virtual Real transmittance(const Ray& ray) const noexcept = 0;
+
+  /// Evaluates the material's inputs over the footprint, bends and maps the normal.
+  virtual Interaction shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
+                            InputBuffer& buffer) const noexcept = 0;
+
+  /// What the surface emits towards `from`; black if it is no light.
+  virtual Rgb emitted(const Surface& surface, Vec3 from) const noexcept = 0;
+  /// Density with which the light of this surface would have been sampled from `from`, 1/sr, chance
+  /// of choosing it included.
+  virtual Real lightPdf(const Surface& surface, Vec3 from) const noexcept = 0;
+
+  /// Lights, and how to choose among them: by power.
+  virtual std::span<const Light* const> lights() const noexcept = 0;
+  virtual std::optional<LightChoice> chooseLight(Real u) const noexcept = 0;
+  virtual Real lightChance(int light) const noexcept = 0;
+  /// Indices into lights() of those at infinity.
+  virtual std::span<const int> infiniteLights() const noexcept = 0;
+
+  /// Extent of everything finite.
+  virtual Bounds bounds() const noexcept = 0;
+
+  /// All surfaces as patches with true areas.
+  virtual std::span<const Patch> patches() const noexcept = 0;
+  /// Area of the part [low, high] of a patch's uv square (of its triangle: where u + v <= 1).
+  virtual Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept = 0;
+};
+
+/// A ray that leaves a surface, started off it on the side it goes to, so that rounding cannot hit
+/// the same surface again.
+inline Ray spawnRay(const Surface& s, Vec3 direction) noexcept {
+  const Real side = dot(direction, s.geometricNormal) < 0 ? Real(-1) : Real(1);
+  return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity};
+}
+/// The same, ending just before a light at a distance.
+inline Ray shadowRay(const Surface& s, Vec3 toLight, Real distance) noexcept {
+  Ray r = spawnRay(s, toLight);
+  r.tMax = distance - 2 * s.offset - distance * Real(1e-5);  // a light does not shadow itself
+  return r;
+}
+
+/// Which quantity a path carries away from the sensor or the light: radiance is scaled by
+/// etaScale(), flux bends with the shading normal [Vea97 5.2, 5.3].
+enum class Carries { radiance, flux };
+
+/// One drawn continuation of a path, in world space.
+struct Scatter {
+  Vec3 toNext;
+  Rgb weight;  ///< f cos / pdf with all corrections
+  ScatterSample local;
+};
+
+/// Correction for shading normals on particle paths, 1 on eye paths [Vea97 Eq. 5.19].
+inline Real shadingCorrection(const Interaction& x, Vec3 toNext, Carries what) noexcept {
+  if (what == Carries::radiance) return 1;
+  const Real in = std::abs(dot(x.toPrev, x.frame.n) * dot(toNext, x.geometricNormal));
+  const Real out = std::abs(dot(x.toPrev, x.geometricNormal) * dot(toNext, x.frame.n));
+  return out > 0 ? std::min(in / out, Real(100)) : 0;  // grazing: bounded, not refused
+}
+
+/// Whether the geometric and the shading normal agree on which side toNext lies.
+inline bool sidesAgree(const Interaction& x, Vec3 toNext, Real localZ) noexcept {
+  return dot(toNext, x.geometricNormal) * localZ > 0;
+}
+
+/// f |cos| towards a direction, world; black where the BRDF or the geometry says no.
+inline Rgb evalScatter(const Interaction& x, Vec3 toNext,
+                       Carries what = Carries::radiance) noexcept {
+  if (!x.brdf) return {};
+  const Vec3 local = x.frame.toLocal(toNext);
+  if (!sidesAgree(x, toNext, local.z)) return {};
+  const Real eta = what == Carries::radiance ? x.brdf->etaScale(x.point, local) : Real(1);
+  return std::abs(local.z) * eta * shadingCorrection(x, toNext, what) *
+         x.brdf->eval(x.point, local);
+}
+
+/// Density of drawScatter() for a direction, 1/sr.
+inline Real scatterPdf(const Interaction& x, Vec3 toNext) noexcept {
+  if (!x.brdf) return 0;
+  const Vec3 local = x.frame.toLocal(toNext);
+  return sidesAgree(x, toNext, local.z) ? x.brdf->pdf(x.point, local) : 0;
+}
+
+/// Draws a continuation; nullopt where the path is absorbed.
+inline std::optional<Scatter> drawScatter(const Interaction& x, ScatterNumbers numbers,
+                                          Carries what = Carries::radiance) noexcept {
+  if (!x.brdf) return std::nullopt;
+  const std::optional<ScatterSample> s = x.brdf->sample(x.point, numbers);
+  if (!s) return std::nullopt;
+  const Vec3 toNext = normalize(x.frame.toWorld(s->toNext));
+  if (!sidesAgree(x, toNext, s->toNext.z)) return std::nullopt;
+  const Real eta = what == Carries::radiance ? x.brdf->etaScale(x.point, s->toNext) : Real(1);
+  return Scatter{toNext, eta * shadingCorrection(x, toNext, what) * s->weight, *s};
+}
+
+/// What a path shows of its first surface, averaged over a pixel like radiance.
+struct Aovs {
+  Vec3 normal;   ///< shading normal, world, facing the camera; zero where nothing was hit
+  Rgb albedo;    ///< weight of the drawn scattering: its mean is the directional albedo
+  Real depth{};  ///< distance along the ray, scene units; 0 where nothing was hit
+  Vec3 position;
+  Vec2 uv;
+  Real footprint{}, footprintTexels{}, gradient{};  ///< size in scene units, in texels; max |g_j|
+};
+
+/// What one thread counted.
+struct Counters {
+  std::uint64_t rays = 0, shadowRays = 0, paths = 0, nonFinite = 0, clamped = 0;
+};
+
+/// One vertex of a recorded path: `inspect` prints it, the window draws it.
+struct PathVertex {
+  Surface surface;
+  Vec3 toPrev;
+  Rgb throughput;
+  const char* event;  ///< "camera", "scatter", "pass", "light", "escape", "absorbed"
+};
+class PathRecord {
+ public:
+  virtual ~PathRecord() = default;
+  virtual void add(const PathVertex& vertex) = 0;
+};
+
+/// One call of estimate(): which sample of which pixel, and where to leave results.
+struct PathContext {
+  const SceneView& scene;
+  Sampler sampler;
+  Ray ray;                  ///< into the scene
+  RayJacobian jacobian;     ///< of that ray, per unit of the film's and lens's random numbers
+  int cameraVariables = 2;  ///< 2, or 4 with a lens
+  std::uint64_t declaredSamples = 0;  ///< samples a pixel the scene asked for; 0: open ended
+  Counters& counters;
+  Aovs* aovs = nullptr;          ///< null: not wanted
+  PathRecord* record = nullptr;  ///< null: not wanted
+};
+
+/// What prepare() may use.
+struct Preparation {
+  const SceneView& scene;
+  std::uint32_t seed;
+  int threads;
+  /// Share done in [0,1]; returns false when the user cancelled.
+  std::function<bool(double)> progress;
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Once before the first estimate(): particles, caches. False if cancelled.
+  virtual bool prepare(const Preparation&) { return true; }
+
+  /// Radiance along context.ray: one sample of the pixel's integral.
+  virtual Rgb estimate(PathContext& context) const noexcept = 0;
+
+  /// What the scene or the integrator says about samples a pixel; 0: nothing.
+  virtual int samples() const noexcept { return 0; }
+};
+
+/// Fills what every integrator has to say about the first surface.
+inline void writeAovs(Aovs& aovs, const Surface& s, const Interaction& x) noexcept {
+  aovs.normal = x.frame.n, aovs.depth = s.distance, aovs.position = s.position, aovs.uv = s.uv;
+}
+
+}  // namespace vestige

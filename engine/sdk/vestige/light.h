@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vestige/shape.h>
+#include <optional>
+
+/// Where radiance comes from.
+///
+/// Said once, true of every method:
+///   * Everything is in world space; a light applies Values::toWorld() when it is created.
+///   * `toLight` is a unit vector from the looking point to the light.
+///   * Two kinds: lights with a density, which a ray may hit by chance, and delta lights (point,
+///   spot,
+///     distant), which none can. For a delta light pdf is 1 and `radiance` is the irradiance that
+///     arrives across toLight, W/m^2.
+///   * Emission is looked up without footprint: the strategies of multiple importance sampling must
+///     estimate the same integral.
+///   * Methods are const, thread-safe and noexcept; they allocate nothing. "No sample" is an
+///   ordinary
+///     value.
+namespace vestige {
+
+/// A point of a light as seen from somewhere.
+struct LightHit {
+  Vec3 from;
+  Vec3 toLight;
+  Real distance;  ///< scene units; infinite for lights at infinity
+  Vec3 position;  ///< on the light; meaningless at infinity
+  Vec3 normal;    ///< geometric normal there, unit; zero at infinity
+  Vec2 uv;
+};
+
+struct LightSample {
+  LightHit hit;
+  Rgb radiance;  ///< W/(m^2 sr) towards hit.from; see above for delta lights
+  Real pdf;      ///< 1/sr, > 0; 1 for delta lights
+};
+
+/// First derivatives of LightHit::toLight as sample() draws it.
+struct LightJacobian {
+  Mat3x2 du;   ///< per unit of random number; zero for delta lights; |du.c0 x du.c1| pdf = 1
+  Mat3 dFrom;  ///< per scene unit of `from`; zero at infinity
+};
+
+/// Relative change of the light's factor in the contribution [PD01 3.2, MATH 1.14]: radiance times
+/// what turns its own measure into solid angle (cos / distance^2 where a point of the light was
+/// drawn by area, nothing where a direction was).
+struct LightLogGradient {
+  Vec2 du;     ///< per unit of random number
+  Vec3 dFrom;  ///< per scene unit
+};
+
+struct EmissionNumbers {
+  Vec2 point, direction;  ///< [0,1)^2
+};
+
+/// What a particle starts with.
+struct Particle {
+  Vec3 origin, direction;
+  Vec3 normal;        ///< of the light there; zero where it has none
+  Rgb power;          ///< W: radiance cos / pdf; its mean is the light's whole flux
+  int variables = 4;  ///< how many of the numbers matter: 2 for point lights
+};
+
+class Light {
+ public:
+  virtual ~Light() = default;
+
+  virtual bool isDelta() const noexcept = 0;
+  /// Lights at infinity are asked for rays that leave the scene.
+  virtual bool isInfinite() const noexcept { return false; }
+
+  /// The extent of the finite part of the scene, told once before rendering. [main thread]
+  virtual void setScene(const Bounds&) {}
+
+  /// A surface that shines, blocks and is seen; the engine adds it to the scene. Null: none.
+  virtual const TriangleMesh* geometry() const noexcept { return nullptr; }
+
+  /// A direction towards the light, for next-event estimation; nullopt where nothing arrives.
+  virtual std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept = 0;
+
+  /// Density of sample() for this direction, 1/sr; 0 for delta lights.
+  virtual Real pdf(const LightHit& hit) const noexcept = 0;
+
+  /// What arrives at hit.from, W/(m^2 sr); black for delta lights.
+  virtual Rgb eval(const LightHit& hit) const noexcept = 0;
+
+  virtual LightJacobian sampleDerivatives(Vec3 from, Vec2 u) const noexcept = 0;
+  virtual LightLogGradient logGradient(Vec3 from, Vec2 u) const noexcept = 0;
+
+  /// Starts a particle; nullopt: this light sends none (nothing lost).
+  virtual std::optional<Particle> emit(EmissionNumbers u) const noexcept = 0;
+  virtual RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept = 0;
+
+  /// Estimate of the whole flux, W: how often the light is chosen.
+  virtual Rgb power() const noexcept = 0;
+};
+
+}  // namespace vestige

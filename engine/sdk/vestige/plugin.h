@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one macro of the project: it exports a class as a plugin.
+//
+//     class Phong final : public vestige::Brdf {
+//      public:
+//       static Schema schema();            // what the scene language accepts
+//       Phong();                           // or Phong(const Values&), or Phong(const Values&,
+//       Host&)
+//       ...
+//     };
+//     VESTIGE_PLUGIN(vestige::Brdf, vestige::Phong)
+//
+// A constructor refuses its parameters by throwing PluginError; nothing else may throw later.
+#pragma once
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <type_traits>
+
+#include <vestige/abi.h>
+#include <vestige/host.h>
+
+namespace vestige {
+
+/// Thrown by a plugin's constructor: the message for the user and the row of Schema::params that is
+/// to blame (-1: the block as a whole).
+class PluginError : public std::runtime_error {
+ public:
+  PluginError(int input, const std::string& message) : std::runtime_error(message), input_(input) {}
+  int input() const noexcept { return input_; }
+
+ private:
+  int input_;
+};
+
+namespace detail {
+
+template <class Class>
+Class* construct(const Values& values, Host& host) {
+  if constexpr (std::is_constructible_v<Class, const Values&, Host&>)
+    return new Class(values, host);
+  else if constexpr (std::is_constructible_v<Class, const Values&>)
+    return new Class(values);
+  else
+    return new Class();
+}
+
+template <class Interface, class Class>
+void* create(const void* values, void* host, VestigeError* error) {
+  const auto refuse = [&](const char* why, int input) {
+    std::snprintf(error->text, sizeof error->text, "%s", why);
+    error->input = input;
+    return nullptr;
+  };
+  try {
+    Interface* made =
+        construct<Class>(*static_cast<const Values*>(values), *static_cast<Host*>(host));
+    return made;
+  } catch (const PluginError& e) {
+    return refuse(e.what(), e.input());
+  } catch (const std::exception& e) {
+    return refuse(e.what(), -1);
+  } catch (...) {
+    return refuse("unknown failure", -1);
+  }
+}
+
+template <class Class>
+const Schema& schemaOf() {
+  static const Schema schema = Class::schema();
+  return schema;
+}
+
+}  // namespace detail
+}  // namespace vestige
+
+/// `Class::schema()` names kind and word; the version is the SDK's unless VESTIGE_PLUGIN_VERSION is
+/// defined before.
+#define VESTIGE_PLUGIN(Interface, Class)                                                \
+  extern "C" __attribute__((visibility("default"))) const VestigePlugin vestige_plugin; \
+  extern "C" const VestigePlugin vestige_plugin = {                                     \
+      ::vestige::kPluginMagic,                                                          \
+      sizeof(VestigePlugin),                                                            \
+      ::vestige::kSdkMajor,                                                             \
+      ::vestige::kSdkMinor,                                                             \
+      ::vestige::kAbiTag,                                                               \
+      ::vestige::detail::schemaOf<Class>().kind.c_str(),                                \
+      ::vestige::detail::schemaOf<Class>().name.c_str(),                                \
+      VESTIGE_PLUGIN_VERSION,                                                           \
+      []() -> const void* { return &::vestige::detail::schemaOf<Class>(); },            \
+      &::vestige::detail::create<Interface, Class>,                                     \
+      [](void* made) { delete static_cast<Interface*>(made); }};
+
+#ifndef VESTIGE_PLUGIN_VERSION
+#define VESTIGE_PLUGIN_VERSION "1.0"
+#endif

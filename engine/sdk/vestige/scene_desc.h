@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene text means: blocks with settings, every value with the span it came from. The
+// language writes it, the engine reads it; another front end may write it too.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <vestige/diagnostic.h>
+#include <vestige/math.h>
+
+namespace vestige {
+
+struct Block;
+
+/// One value of the language. Numbers are double here, whatever Real is.
+struct Value {
+  enum class Kind {
+    none,    ///< not given
+    number,  ///< v[0]; true and false are 1 and 0
+    vector,  ///< v[0 .. size)
+    colour,  ///< red green blue filter transmit, linear Rec. 709
+    text,    ///< a string, or the word of a choice
+    block,   ///< a pigment in place of a constant, a footprint policy, ...
+  };
+  Kind kind = Kind::none;
+  int size = 0;  ///< 2 to 5 for a vector, 5 for a colour
+  double v[5] = {};
+  std::string text;
+  std::shared_ptr<const Block> block;
+  Span span;
+};
+
+/// `name value` inside a block.
+struct Setting {
+  std::string name;  ///< of the schema's row; positional values carry their row's name too
+  Value value;
+  Span span;  ///< of the name, or of a positional value
+};
+
+/// `kind plugin { settings, children }`, checked against its schema.
+struct Block {
+  std::string kind;               ///< "brdf", "shape", "union", "film", ...
+  std::string plugin;             ///< "phong", "sphere", ...; "" where the kind has no plugins
+  Span span;                      ///< of the head, `brdf phong`
+  std::vector<Setting> settings;  ///< a later one overrides an earlier one of the same name
+  std::vector<Block> children;    ///< in the order written: a shape's brdf, the parts of a union
+  /// Transforms written inside this block's own braces. Moves what uv coordinates look up.
+  Affine own;
+  /// Everything that moves this block: its own, then those of the blocks around it that stand after
+  /// it. To world space.
+  Affine world;
+
+  const Value* find(const std::string& name) const noexcept {
+    for (auto s = settings.rbegin(); s != settings.rend(); ++s)
+      if (s->name == name) return &s->value;
+    return nullptr;
+  }
+  /// The last child of a kind (a later brdf overrides an earlier one), or null.
+  const Block* child(const std::string& childKind) const noexcept {
+    for (auto b = children.rbegin(); b != children.rend(); ++b)
+      if (b->kind == childKind) return &*b;
+    return nullptr;
+  }
+};
+
+/// A whole scene: cameras, film, integrator, lights and shapes in the order written.
+struct SceneDesc {
+  std::vector<Block> blocks;
+  std::vector<std::string> files;  ///< by Span::file, to find what a text names beside itself
+  std::uint64_t hash = 0;          ///< of the meaning, for the image's metadata
+};
+
+}  // namespace vestige

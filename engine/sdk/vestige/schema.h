@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a plugin accepts, as data: from these rows come type checking, error messages, `vestige
+// describe`, the manual and completion.
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <vestige/scene_desc.h>
+
+namespace vestige {
+
+enum class ValueType {
+  real,     ///< number
+  integer,  ///< whole number
+  boolean,  ///< true/false, on/off, yes/no, or a number
+  rgb,      ///< colour; a number or a 3-vector is taken as grey or as linear Rec. 709
+  vec2,     ///< <a, b>
+  vec3,     ///< <a, b, c>: a number is promoted, POV-Ray's rule
+  text,     ///< "string"
+  file,     ///< "file name", looked for beside the scene text
+  choice,   ///< one of `choices`, as a string or as a bare word
+  block,    ///< a block of kind `blockKind`
+};
+
+/// One row of a schema. Built by the functions below and the setters, which chain:
+///   real("exponent", 50).range(0, 1e6).doc("0 matt, 1000 almost a mirror")
+struct Parameter {
+  std::string name;
+  ValueType type = ValueType::real;
+  Value initial;  ///< the default; Kind::none: no value unless given
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool openLow = false;     ///< low itself is refused, as for a radius
+  bool required = false;    ///< a scene that leaves it out is refused
+  bool positional = false;  ///< may stand without its name, in the order of the rows
+  bool texturable = false;  ///< takes a pigment in place of a constant
+  std::string unit;         ///< "degrees", "scene units", "W/sr", ...; "" is a plain number
+  std::string help;         ///< one line
+  std::vector<std::string> choices;
+  std::string blockKind;
+
+  Parameter&& range(double from, double to) && { return low = from, high = to, std::move(*this); }
+  Parameter&& positive() && { return low = 0, openLow = true, std::move(*this); }
+  Parameter&& need() && { return required = true, initial = {}, std::move(*this); }
+  Parameter&& place() && { return positional = true, std::move(*this); }
+  Parameter&& in(std::string u) && { return unit = std::move(u), std::move(*this); }
+  Parameter&& doc(std::string h) && { return help = std::move(h), std::move(*this); }
+  Parameter&& unset() && { return initial = {}, std::move(*this); }
+};
+
+inline Value numberValue(double x) {
+  Value v;
+  v.kind = Value::Kind::number, v.v[0] = x;
+  return v;
+}
+inline Value vectorValue(std::initializer_list<double> x) {
+  Value v;
+  v.kind = Value::Kind::vector;
+  for (const double c : x) v.v[v.size++] = c;
+  return v;
+}
+inline Value colourValue(double r, double g, double b) {
+  Value v = vectorValue({r, g, b, 0, 0});
+  v.kind = Value::Kind::colour;
+  return v;
+}
+inline Value textValue(std::string s) {
+  Value v;
+  v.kind = Value::Kind::text, v.text = std::move(s);
+  return v;
+}
+
+inline Parameter parameter(std::string name, ValueType type, Value initial) {
+  Parameter p;
+  p.name = std::move(name), p.type = type, p.initial = std::move(initial);
+  return p;
+}
+inline Parameter real(std::string name, double initial) {
+  return parameter(std::move(name), ValueType::real, numberValue(initial));
+}
+inline Parameter integer(std::string name, std::int64_t initial) {
+  return parameter(std::move(name), ValueType::integer, numberValue(double(initial)));
+}
+inline Parameter boolean(std::string name, bool initial) {
+  return parameter(std::move(name), ValueType::boolean, numberValue(initial));
+}
+inline Parameter rgb(std::string name, double grey) {
+  return parameter(std::move(name), ValueType::rgb, colourValue(grey, grey, grey));
+}
+inline Parameter vec2(std::string name, Vec2 initial) {
+  return parameter(std::move(name), ValueType::vec2, vectorValue({initial.x, initial.y}));
+}
+inline Parameter vec3(std::string name, Vec3 initial) {
+  return parameter(std::move(name), ValueType::vec3,
+                   vectorValue({initial.x, initial.y, initial.z}));
+}
+inline Parameter text(std::string name, std::string initial) {
+  return parameter(std::move(name), ValueType::text, textValue(std::move(initial)));
+}
+/// No default: a file is given or it is not.
+inline Parameter file(std::string name) { return parameter(std::move(name), ValueType::file, {}); }
+/// The first word is the default.
+inline Parameter choice(std::string name, std::vector<std::string> words) {
+  Parameter p = parameter(std::move(name), ValueType::choice, textValue(words.front()));
+  p.choices = std::move(words);
+  return p;
+}
+/// A nested block of some kind; no default.
+inline Parameter block(std::string name, std::string kind) {
+  Parameter p = parameter(std::move(name), ValueType::block, {});
+  p.blockKind = std::move(kind);
+  return p;
+}
+
+/// Everything that the scene language knows about one plugin.
+struct Schema {
+  std::string kind;     ///< "brdf", "light", "camera", "integrator", "pigment", "shape", ...
+  std::string name;     ///< the word in the language; "" for a block without plugin (film, union)
+  std::string summary;  ///< one line
+  std::vector<Parameter> params = {};      ///< fixed when the plugin is created: see Values
+  std::vector<Parameter> inputs = {};      ///< may be textured, evaluated at each point: see Inputs
+  std::vector<std::string> children = {};  ///< kinds of blocks that may stand inside
+
+  /// The row of a name, or null.
+  const Parameter* find(const std::string& word) const noexcept {
+    for (const auto* rows : {&params, &inputs})
+      for (const Parameter& p : *rows)
+        if (p.name == word) return &p;
+    return nullptr;
+  }
+};
+
+}  // namespace vestige

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <vestige/inputs.h>
+
+/// Surfaces: analytic ones, which intersect rays themselves, and meshes, which hand over triangles.
+///
+/// Said once, true of every method:
+///   * A shape is asked in its own space; the engine transforms rays, points, normals and their
+///     derivatives, areas and densities, however the shape is scaled and rotated.
+///   * The normal of a closed shape points outwards.
+///   * uv and its directions are those of the scene language (docs/language.md); where uv has a
+///     pole, dP/du and dP/dv are finite and span the tangent plane.
+///   * Methods are const, thread-safe and noexcept; they allocate nothing.
+namespace vestige {
+
+/// Triangles with what a file had to say about their corners.
+struct TriangleMesh {
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;  ///< unit, one a position; empty: flat
+  std::vector<Vec2> uvs;      ///< one a position; empty: barycentric
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// A mesh and what it is made of: files with several materials give several parts.
+struct MeshPart {
+  TriangleMesh mesh;
+  std::string name;  ///< of the material, for messages
+  /// The material as the language would have written it; null: the shape's own brdf. A `brdf` in
+  /// the scene text overrides it.
+  std::shared_ptr<const Block> brdf;
+  Value emission;  ///< kind none: does not shine
+};
+
+/// Where a ray meets an analytic shape.
+struct ShapeHit {
+  Real t;        ///< in lengths of ray.direction
+  int part = 0;  ///< which face: lid, side, ...
+};
+
+/// The surface at a point: position, normals, uv and first derivatives by uv.
+struct SurfacePoint {
+  Vec3 position;         ///< on the surface, within rounding
+  Vec3 geometricNormal;  ///< unit
+  Vec3 normal;           ///< unit, for shading; equals geometricNormal but on smooth meshes
+  Vec2 uv;
+  Vec3 dPdu, dPdv;  ///< scene units per unit of uv
+  Vec3 dNdu, dNdv;  ///< of `normal`; zero where flat
+};
+
+/// A point drawn from the surface.
+struct AreaSample {
+  SurfacePoint point;
+  Mat3x2 du;    ///< dP/du, per unit of random number; |du.c0 x du.c1| pdf = 1
+  Mat3x2 dNdu;  ///< of the normal
+  Real pdf;     ///< per unit of area, > 0
+};
+
+/// A direction towards the shape, drawn by the angle that it fills.
+struct ConeSample {
+  Vec3 toShape;   ///< unit
+  Real distance;  ///< to the first point met
+  Real pdf;       ///< 1/sr
+};
+/// First derivatives of ConeSample::toShape.
+struct ConeJacobian {
+  Mat3x2 du;   ///< per unit of random number
+  Mat3 dFrom;  ///< per scene unit of the point that looks
+};
+
+class Shape {
+ public:
+  virtual ~Shape() = default;
+
+  /// Infinite in some direction for a plane.
+  virtual Bounds bounds() const noexcept = 0;
+
+  /// First meeting with t in (ray.tMin, ray.tMax), either side. The origin may lie on the surface
+  /// within rounding; the engine then has set tMin.
+  virtual std::optional<ShapeHit> intersect(const Ray& ray) const noexcept = 0;
+
+  /// The surface at a point that intersect() found (`near` lies on it within rounding).
+  virtual SurfacePoint surface(Vec3 near, int part) const noexcept = 0;
+
+  /// Whether it bounds a solid: rays inside it see its back.
+  virtual bool isClosed() const noexcept = 0;
+
+  /// Total area; 0: it has none that could shine (infinite).
+  virtual Real area() const noexcept = 0;
+
+  /// Uniform by area; only where area() > 0.
+  virtual AreaSample samplePoint(Vec2 u) const noexcept = 0;
+
+  /// By solid angle; nullopt: the shape has no such sampler or `from` lies inside, use
+  /// samplePoint().
+  virtual std::optional<ConeSample> sampleToward(Vec3 /*from*/, Vec2 /*u*/) const noexcept {
+    return std::nullopt;
+  }
+  /// Density of sampleToward() for any direction that meets the shape, 1/sr; 0: no such sampler.
+  virtual Real towardPdf(Vec3 /*from*/) const noexcept { return 0; }
+  virtual ConeJacobian towardDerivatives(Vec3 /*from*/, Vec2 /*u*/) const noexcept { return {}; }
+
+  /// Triangles in place of all of the above, which the engine then never calls; null: analytic.
+  virtual const std::vector<MeshPart>* parts() const noexcept { return nullptr; }
+};
+
+/// Base of a shape that is made of triangles.
+class MeshShape : public Shape {
+ public:
+  const std::vector<MeshPart>* parts() const noexcept final { return &parts_; }
+  bool isClosed() const noexcept override { return false; }
+
+  Bounds bounds() const noexcept final { return {}; }
+  std::optional<ShapeHit> intersect(const Ray&) const noexcept final { return std::nullopt; }
+  SurfacePoint surface(Vec3, int) const noexcept final { return {}; }
+  Real area() const noexcept final { return 0; }
+  AreaSample samplePoint(Vec2) const noexcept final { return {}; }
+
+ protected:
+  std::vector<MeshPart> parts_;
+};
+
+}  // namespace vestige
