@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where samples are summed: integers, so that the picture is the same in whatever order they come.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <vestige/integrator.h>
+
+namespace vestige {
+
+/// Pixels [x0, x1) x [y0, y1) of a film.
+struct Crop {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+enum class Aov {
+  normal,
+  albedo,
+  depth,
+  position,
+  uv,
+  samples,
+  footprint,
+  footprintTexels,
+  gradient
+};
+/// "normal", "footprint.texels", ...
+const char* name(Aov aov) noexcept;
+
+/// One unit of the sums: 2^-28; each sample is clamped to +-2^24 first.
+inline constexpr double kFilmUnit = 0x1p-28;
+inline constexpr double kFilmLimit = 0x1p24;
+
+/// Sums of radiance and of the wanted AOVs, int64 a channel. One thread a pixel at a time;
+/// different pixels may be added to at once.
+class Film {
+ public:
+  Film(int width, int height, Crop crop, std::vector<Aov> aovs);
+
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+  Crop crop() const noexcept { return crop_; }
+  const std::vector<Aov>& aovs() const noexcept { return aovs_; }
+
+  /// Adds one sample of weight 1. What is not finite is left out as black and counted, what is too
+  /// large is clamped and counted.
+  void add(int x, int y, Rgb radiance, const Aovs& aovs, Counters& counters) noexcept;
+
+  /// Samples that the pixel holds.
+  std::uint32_t samples(int x, int y) const noexcept;
+  /// Fewest samples of any pixel.
+  std::uint32_t minSamples() const noexcept;
+
+  /// Means so far: R, G, B, then the AOVs' channels ("normal.X", "depth.Z", "uv.U", ...). Size of
+  /// the crop window; black where no sample is.
+  struct Means {
+    int width, height;
+    std::vector<std::string> channels;
+    std::vector<float> pixels;
+  };
+  Means means() const;
+
+ private:
+  int width_, height_;
+  Crop crop_;
+  std::vector<Aov> aovs_;
+  int channels_;
+  std::vector<std::int64_t> sums_;
+  std::vector<std::uint32_t> counts_;
+};
+
+}  // namespace vestige

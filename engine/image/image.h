@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures in memory, and how they come from and go to files. OpenImageIO stays behind this header.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <vestige/host.h>
+
+namespace vestige {
+
+/// Float channels, interleaved, row 0 at the top. "R", "G", "B" first; AOVs are "normal.X", ...
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+  std::vector<float> pixels;                    ///< [height][width][channels]
+  std::map<std::string, std::string> metadata;  ///< written as string attributes to EXR
+
+  float* at(int x, int y) { return &pixels[(std::size_t(y) * width + x) * channels.size()]; }
+  const float* at(int x, int y) const {
+    return &pixels[(std::size_t(y) * width + x) * channels.size()];
+  }
+};
+
+/// Any format that OpenImageIO reads, without colour conversion; nullopt-like: empty() width and
+/// `error`.
+Image readImage(const std::string& file, std::string& error);
+
+/// How a picture for looking at is made from linear radiance.
+struct Display {
+  double exposure = 0;       ///< stops
+  std::string view = "";     ///< "" the config's default ("Standard"), "ACES 1.0 SDR", "Raw"
+  std::string display = "";  ///< "" the config's default
+};
+struct WriteOptions {
+  Display display;         ///< for PNG, JPEG and other integer formats
+  bool halfFloat = false;  ///< for EXR
+};
+/// By the ending: EXR, HDR, TIFF linear with all channels; PNG, JPEG RGB through OpenColorIO.
+/// Writes beside the target and renames, so that a full disk never leaves half a picture under its
+/// name. False with `error` in the user's words.
+bool writeImage(const std::string& file, const Image& image, const WriteOptions& options,
+                std::string& error);
+
+/// Whether writeImage() could work: known ending, folder exists and may be written. Asked before
+/// rendering.
+bool canWrite(const std::string& file, std::string& error);
+
+/// Reads textures once, converts them to rendering space (linear Rec. 709) by their metadata or the
+/// named colour space.
+class TextureStore {
+ public:
+  TextureStore();
+  ~TextureStore();
+  /// `file` is an absolute name. The same object for the same request; null with `error`.
+  std::shared_ptr<const Texture> texture(const std::string& file, const TextureRequest& request,
+                                         std::string& error);
+  /// Bytes held by all textures.
+  std::size_t bytes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// How two pictures differ.
+struct Comparison {
+  double rmse;             ///< over pixels and channels R, G, B
+  double relMse;           ///< mean of (a-b)^2 / (b^2 + 0.01), b the reference
+  double relMseTrimmed;    ///< the same without the worst 0.1 % of pixels
+  double meanRatio[3];     ///< mean of a / mean of b
+  double blockDifference;  ///< mean of |a - b| / (b + 0.01) over 16 x 16 block means
+  double flip;             ///< mean of the perceptual difference picture, [0, 1]
+};
+/// Pictures of the same size only; `difference`, if not null, receives the difference picture.
+Comparison compareImages(const Image& a, const Image& reference, Image* difference);
+
+/// Name and version of the image and colour libraries, for --version.
+std::string imageLibraryVersions();
+
+}  // namespace vestige

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene that can be rendered, and how it is made from its description.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <vestige/camera.h>
+#include <vestige/integrator.h>
+
+#include "engine/scene/registry.h"
+
+namespace vestige {
+
+enum class PixelFilter { box, gaussian, blackmanHarris };
+
+struct FilmSettings {
+  int width = 640, height = 480;
+  PixelFilter filter = PixelFilter::box;
+  double crop[4] = {0, 0, 1, 1};  ///< x0 y0 x1 y1 as shares of the film
+};
+
+class Scene {
+ public:
+  Scene();
+  ~Scene();
+  const SceneView& view() const noexcept;
+  const Camera& camera() const noexcept;
+  Integrator& integrator() noexcept;
+  const std::string& integratorName() const noexcept;
+  const FilmSettings& film() const noexcept;
+  std::size_t textureBytes() const noexcept;
+  std::size_t triangles() const noexcept;
+  std::uint64_t hash() const noexcept;  ///< of the description
+
+  struct Impl;
+  Impl& impl() noexcept { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+struct BuildOptions {
+  std::string integrator;  ///< replaces the scene's own by name; "": the scene's, or `path`
+};
+
+/// Null if `diagnostics` got an error: missing file, refused parameter, singular transform, ...
+std::unique_ptr<Scene> buildScene(const SceneDesc& description, const Registry& registry,
+                                  const BuildOptions& options, Diagnostics& diagnostics);
+
+}  // namespace vestige

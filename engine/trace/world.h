@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// All surfaces of a scene behind one acceleration structure. Embree stays behind this header.
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <vestige/integrator.h>
+
+namespace vestige {
+
+/// What one object of the world is: a shape (or one part of a mesh) at a place.
+struct Placement {
+  std::shared_ptr<const Shape> shape;  ///< kept alive
+  const TriangleMesh* mesh = nullptr;  ///< the part of the shape that this is; null: analytic
+  Affine toWorld;                      ///< not singular
+  int object = -1;                     ///< handed back in Surface::object
+  int light = -1;                      ///< handed back in Surface::light
+  bool closed = false;
+  /// Whether the surface may let light through: then transmittance() asks `opacity`.
+  bool translucent = false;
+};
+
+class World {
+ public:
+  World();
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  /// Before commit(). The same mesh pointer placed several times becomes instances of one tree.
+  void add(const Placement& placement);
+  /// Builds the tree. Vertices that are not finite and degenerate triangles were dropped: how many
+  /// is told by dropped().
+  void commit();
+  std::size_t dropped() const noexcept;
+
+  /// First surface along the ray.
+  std::optional<Surface> intersect(const Ray& ray) const noexcept;
+
+  /// Product of 1 - opacity(surface) over the surfaces in (tMin, tMax); 0 at the first opaque one
+  /// and behind more than 64 layers.
+  using Opacity = Real (*)(const void* context, const Surface& surface);
+  Real transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept;
+
+  /// Of everything finite; empty if there is nothing.
+  Bounds bounds() const noexcept;
+
+  std::span<const Patch> patches() const noexcept;
+  Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept;
+
+  std::size_t triangles() const noexcept;  ///< without instances
+  static std::string embreeVersion();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A shape that shines, as a light: drawn by area (by cone where the shape offers it), in world
+/// space. `radiance` is asked with the surface point (uv, position) and must be thread-safe.
+std::unique_ptr<Light> makeShapeLight(const Placement& placement,
+                                      std::function<Rgb(const SurfacePoint&)> radiance,
+                                      bool twoSided, Rgb meanRadiance);
+
+}  // namespace vestige

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene language from outside: text in, meaning and complaints out.
+#pragma once
+#include <functional>
+#include <memory>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <vestige/schema.h>
+
+namespace vestige::lang {
+
+class Sources;  // lang/source.h: texts and expansions that spans refer to
+
+/// Bounds on what hostile text may cost; each has its own message, which names the flag that raises
+/// it.
+struct Limits {
+  int includeDepth = 32;
+  int macroDepth = 200;
+  std::int64_t loopIterations = 10'000'000;  ///< of the whole run
+  std::int64_t expandedTokens = 200'000'000;
+  std::size_t stringLength = 1 << 20;
+  int errors = 20;  ///< then parsing stops
+  int nesting = 256;
+};
+
+struct Options {
+  std::vector<std::string> includePaths;  ///< -I, in order; the installed library last
+  std::vector<std::pair<std::string, std::string>> definitions;  ///< -D name=expression
+  bool sandbox = false;  ///< includes only from below the scene's folder and the include paths
+  Limits limits;
+  std::function<void(const std::string&)> debug;  ///< receives #debug text; null: stderr
+};
+
+struct Result {
+  SceneDesc scene;
+  Diagnostics diagnostics;
+  std::shared_ptr<const Sources> sources;
+};
+
+/// Reads a scene file (or, second form, a text under a name) and checks it against the schemas. The
+/// scene is usable only if diagnostics has no errors.
+Result readScene(const std::string& file, std::span<const Schema> schemas, const Options& options);
+Result readSceneText(const std::string& name, const std::string& text,
+                     std::span<const Schema> schemas, const Options& options);
+
+/// `file:line:column: error: ...`, the line, the caret, the notes, the chain of macros and
+/// includes.
+void print(std::ostream& out, const Diagnostic& diagnostic, const Sources& sources, bool colour);
+
+/// Where a span begins, for --json.
+struct Place {
+  std::string file;
+  int line = 0, column = 0;        ///< from 1; 0: no place
+  int endLine = 0, endColumn = 0;  ///< one past the end
+};
+Place locate(const Span& span, const Sources& sources);
+
+}  // namespace vestige::lang
