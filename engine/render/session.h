@@ -22,9 +22,10 @@ struct RenderOptions {
   int samples = 0;     ///< a pixel; 0: what the scene says, or 16
   double seconds = 0;  ///< stop when this much time has passed; 0: no limit
   std::uint32_t seed = 0;
-  int threads = 0;                                ///< 0: as many as the machine has
-  const std::atomic<bool>* cancel = nullptr;      ///< set by a signal handler or a window
-  std::function<void(const Progress&)> progress;  ///< on the calling thread, a few times a second
+  int threads = 0;                            ///< 0: as many as the machine has
+  const std::atomic<bool>* cancel = nullptr;  ///< set by a signal handler or a window
+  std::function<void(const Progress&)> progress =
+      nullptr;  ///< on the calling thread, a few times a second
 };
 
 enum class RenderEnd { finished, timeUp, cancelled };

@@ -107,7 +107,8 @@ inline Ray spawnRay(const Surface& s, Vec3 direction) noexcept {
 /// The same, ending just before a light at a distance.
 inline Ray shadowRay(const Surface& s, Vec3 toLight, Real distance) noexcept {
   Ray r = spawnRay(s, toLight);
-  r.tMax = distance - 2 * s.offset - distance * Real(1e-5);  // a light does not shadow itself
+  // A light does not shadow itself.
+  if (std::isfinite(distance)) r.tMax = distance - 2 * s.offset - distance * Real(1e-5);
   return r;
 }
 

@@ -23,6 +23,7 @@ enum class ValueType {
   file,     ///< "file name", looked for beside the scene text
   choice,   ///< one of `choices`, as a string or as a bare word
   block,    ///< a block of kind `blockKind`
+  vec4,     ///< <a, b, c, d>
 };
 
 /// One row of a schema. Built by the functions below and the setters, which chain:

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/render/session.h"
+
+#include <xmmintrin.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "engine/render/pixel_filter.h"
+
+namespace vestige {
+namespace {
+
+constexpr int kTile = 16;  ///< pixels; small enough that a cancel is answered at once
+constexpr int kDefaultSamples = 16;
+constexpr int kMaxPass = 16;  ///< samples a pixel in one pass: how coarse progress may be
+constexpr auto kTick = std::chrono::milliseconds(100);
+
+double now() {
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+/// Tiny numbers as zero: denormals cost a hundred cycles each and show in no picture. Embree asks
+/// for it too. Restores the thread's mode when it goes.
+class FlushDenormals {
+ public:
+  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040); }
+  ~FlushDenormals() { _mm_setcsr(before_); }
+
+ private:
+  unsigned before_;
+};
+
+/// Everything that the threads of one render share and none changes.
+struct Job {
+  const SceneView& scene;
+  const Camera& camera;
+  const Integrator& integrator;
+  Film& film;
+  PixelFilterSampler filter;
+  std::uint32_t seed;
+  std::uint64_t declaredSamples;
+  int tilesX, tilesY;
+};
+
+/// One sample of one pixel. [any thread, one a pixel]
+void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& counters) noexcept {
+  const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, job.seed);
+  const Vec2 u = sampler.pair(dimension::kFilm);
+  const FilterOffset dx = job.filter.sample(u.x), dy = job.filter.sample(u.y);
+  const Real w = Real(job.film.width()), h = Real(job.film.height());
+  const CameraNumbers numbers{
+      {(Real(x) + Real(0.5) + dx.offset) / w, (Real(y) + Real(0.5) + dy.offset) / h},
+      sampler.pair(dimension::kLens),
+      w / h};
+  Aovs aovs;
+  ++counters.paths;
+  const std::optional<CameraSample> ray = job.camera.sample(numbers);
+  if (!ray) return job.film.add(x, y, {}, aovs, counters);
+  RayJacobian jacobian = job.camera.sampleDerivatives(numbers);
+  for (auto* d : {&jacobian.dOrigin, &jacobian.dDirection}) {
+    (*d)[0] *= dx.slope / w;
+    (*d)[1] *= dy.slope / h;
+  }
+  PathContext context{.scene = job.scene,
+                      .sampler = sampler,
+                      .ray = {ray->origin, ray->direction, 0, kInfinity},
+                      .jacobian = jacobian,
+                      .cameraVariables = job.camera.variables(),
+                      .declaredSamples = job.declaredSamples,
+                      .counters = counters,
+                      .aovs = &aovs};
+  job.film.add(x, y, ray->weight * job.integrator.estimate(context), aovs, counters);
+}
+
+void renderTile(const Job& job, int tile, std::uint32_t first, int count, Counters& counters) {
+  const Crop crop = job.film.crop();
+  const int x0 = crop.x0 + tile % job.tilesX * kTile, y0 = crop.y0 + tile / job.tilesX * kTile;
+  for (int y = y0; y < std::min(y0 + kTile, crop.y1); ++y)
+    for (int x = x0; x < std::min(x0 + kTile, crop.x1); ++x)
+      for (int s = 0; s < count; ++s) samplePixel(job, x, y, first + std::uint32_t(s), counters);
+}
+
+void add(Counters& sum, const Counters& c) {
+  sum.rays += c.rays, sum.shadowRays += c.shadowRays, sum.paths += c.paths;
+  sum.nonFinite += c.nonFinite, sum.clamped += c.clamped;
+}
+
+/// One pass over all tiles by several threads, watched by the calling thread. False if `stop` said
+/// so before the end; tiles under way are finished.
+class Pass {
+ public:
+  Pass(const Job& job, std::uint32_t first, int count) : job_(job), first_(first), count_(count) {}
+
+  /// `tick(share)` is called now and then; it returns true to stop.
+  template <class Tick>
+  bool run(int threads, Counters& total, const Tick& tick) {
+    std::vector<std::thread> workers;
+    for (int i = 0; i < threads; ++i) workers.emplace_back([this] { work(); });
+    std::unique_lock lock(mutex_);
+    running_ += threads;
+    started_ = true;
+    ready_.notify_all();
+    while (running_ > 0) {
+      finished_.wait_for(lock, kTick);
+      if (tick(double(done_) / (job_.tilesX * job_.tilesY))) stop_ = true;
+    }
+    lock.unlock();
+    for (std::thread& w : workers) w.join();
+    add(total, counters_);
+    return done_ == job_.tilesX * job_.tilesY;
+  }
+
+ private:
+  void work() {
+    const FlushDenormals flush;
+    Counters counters;
+    {
+      std::unique_lock lock(mutex_);
+      ready_.wait(lock, [this] { return started_; });
+    }
+    for (int tile; !stop_ && (tile = next_++) < job_.tilesX * job_.tilesY; ++done_)
+      renderTile(job_, tile, first_, count_, counters);
+    const std::lock_guard lock(mutex_);
+    add(counters_, counters);
+    if (--running_ == 0) finished_.notify_all();
+  }
+
+  const Job& job_;
+  const std::uint32_t first_;
+  const int count_;
+  std::atomic<int> next_{0}, done_{0};
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;
+  std::condition_variable finished_, ready_;
+  int running_ = 0;
+  bool started_ = false;
+  Counters counters_;
+};
+
+int wantedSamples(const Integrator& integrator, const RenderOptions& options) {
+  if (options.samples > 0) return options.samples;
+  if (options.seconds > 0) return 0;  // until time is up
+  return integrator.samples() > 0 ? integrator.samples() : kDefaultSamples;
+}
+
+}  // namespace
+
+Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
+              std::vector<Aov> aovs) {
+  const FilmSettings& f = scene.film();
+  // One side given: the other keeps the shape of the picture.
+  int w = width > 0 ? width : f.width, h = height > 0 ? height : f.height;
+  if (width > 0 && height <= 0) h = std::max(1, int(std::lround(double(f.height) * w / f.width)));
+  if (height > 0 && width <= 0) w = std::max(1, int(std::lround(double(f.width) * h / f.height)));
+  const double* c = crop ? crop : f.crop;
+  Crop window{int(std::floor(c[0] * w)), int(std::floor(c[1] * h)), int(std::ceil(c[2] * w)),
+              int(std::ceil(c[3] * h))};
+  window.x0 = std::clamp(window.x0, 0, w - 1), window.y0 = std::clamp(window.y0, 0, h - 1);
+  window.x1 = std::clamp(window.x1, window.x0 + 1, w);
+  window.y1 = std::clamp(window.y1, window.y0 + 1, h);
+  return Film(w, h, window, std::move(aovs));
+}
+
+RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
+  const double start = now();
+  const int threads =
+      options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
+  const int wanted = wantedSamples(scene.integrator(), options);
+  const auto cancelled = [&] { return options.cancel && options.cancel->load(); };
+  const auto timeUp = [&] { return options.seconds > 0 && now() - start >= options.seconds; };
+  RenderResult result{RenderEnd::finished, 0, 0, threads, {}};
+
+  const auto report = [&](double share, int samples, const char* phase) {
+    if (!options.progress) return;
+    const double elapsed = now() - start;
+    if (wanted == 0) share = std::min(1.0, elapsed / options.seconds);
+    const double left = options.seconds > 0 ? options.seconds - elapsed : kInfinity;
+    const double bySamples = wanted > 0 && share > 0 ? elapsed * (1 - share) / share : kInfinity;
+    const double remaining = std::min(left, bySamples);
+    options.progress({share, elapsed, std::isfinite(remaining) ? std::max(0.0, remaining) : -1,
+                      samples, wanted, phase});
+  };
+
+  const auto preparing = [&](double share) {
+    report(share, 0, "preparing");
+    return !cancelled();
+  };
+  if (!scene.integrator().prepare({scene.view(), options.seed, threads, preparing}))
+    result.end = RenderEnd::cancelled;
+
+  const Crop crop = film.crop();
+  const Job job{scene.view(),
+                scene.camera(),
+                scene.integrator(),
+                film,
+                PixelFilterSampler(scene.film().filter),
+                options.seed,
+                std::uint64_t(wanted),
+                (crop.x1 - crop.x0 + kTile - 1) / kTile,
+                (crop.y1 - crop.y0 + kTile - 1) / kTile};
+  // Passes of 1, 1, 2, 4, ... samples: a picture soon, then little overhead.
+  for (int done = int(film.minSamples()), pass = 1; result.end == RenderEnd::finished;) {
+    if (wanted > 0 && done >= wanted) break;
+    const int count = wanted > 0 ? std::min(pass, wanted - done) : pass;
+    const bool whole =
+        Pass(job, std::uint32_t(done), count).run(threads, result.counters, [&](double share) {
+          report(wanted > 0 ? (done + share * count) / wanted : 0, done, "rendering");
+          return cancelled() || timeUp();
+        });
+    if (!whole) result.end = cancelled() ? RenderEnd::cancelled : RenderEnd::timeUp;
+    done += count;
+    if (whole && timeUp() && done != wanted) result.end = RenderEnd::timeUp;
+    if (whole && cancelled() && done != wanted) result.end = RenderEnd::cancelled;
+    pass = std::min(kMaxPass, std::max(pass, done));
+  }
+  result.samples = int(film.minSamples());
+  result.seconds = now() - start;
+  return result;
+}
+
+}  // namespace vestige

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scene/builder.h"
+
+#include <fmt/format.h>
+
+#include "engine/scene/engine_schemas.h"
+
+namespace vestige {
+namespace {
+
+/// What a shape wears that says nothing.
+Block defaultBrdf() {
+  Block b;
+  b.kind = "brdf", b.plugin = "lambert";
+  return b;
+}
+
+/// Text that is the same for blocks that create the same shape.
+std::string shapeKey(const Block& block, const SceneDesc& description) {
+  std::string key = block.plugin;
+  const std::int32_t file = block.span.file;
+  if (file >= 0 && file < int(description.files.size())) key += '|' + description.files[file];
+  for (const Setting& s : block.settings) {
+    if (s.name == kEmission || s.name == kEmissionSides) continue;
+    key += '|' + s.name + '=' + s.value.text;
+    for (const double x : s.value.v) key += fmt::format(",{}", x);
+  }
+  return key;
+}
+
+std::string described(const Block& block) {
+  return block.plugin.empty() ? block.kind : block.kind + " " + block.plugin;
+}
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(const SceneDesc& description, const Registry& registry,
+                           const BuildOptions& options, Diagnostics& diagnostics)
+    : description_(description),
+      registry_(registry),
+      options_(options),
+      diagnostics_(diagnostics),
+      scene_(std::make_unique<Scene>()),
+      impl_(scene_->impl()),
+      host_(description, impl_.textures, diagnostics) {}
+
+std::unique_ptr<Scene> SceneBuilder::build() {
+  impl_.hash = description_.hash;
+  for (const Block& block : description_.blocks) addTop(block);
+  addCamera();
+  addIntegrator();
+  if (diagnostics_.hasErrors()) return nullptr;
+  impl_.commit();
+  if (const std::size_t n = impl_.world.dropped())
+    diagnostics_.warning({},
+                         fmt::format("left out {} triangles that have no area or a corner that is "
+                                     "not a finite number",
+                                     n));
+  if (impl_.objectMaterial.empty() && impl_.infinite.empty())
+    diagnostics_.warning({},
+                         "the scene holds no shape and no environment: the picture will be black");
+  else if (impl_.lightList.empty())
+    diagnostics_.warning({}, "the scene holds no light: the picture will be black");
+  return std::move(scene_);
+}
+
+void SceneBuilder::addTop(const Block& block) {
+  if (block.kind == "camera") cameraBlock_ = &block;
+  if (block.kind == "integrator") integratorBlock_ = &block;
+  if (block.kind == "film") readFilm(block);
+  if (block.kind == "light") addLight(block);
+  if (block.kind == "shape" || block.kind == "union") addShape(block, nullptr);
+}
+
+// ---------------------------------------------------------------- plugins
+bool SceneBuilder::known(const Block& block) {
+  if (registry_.find(block.kind, block.plugin)) return true;
+  error(at(block.span), fmt::format("there is no {} called '{}'", block.kind, block.plugin));
+  return false;
+}
+
+template <class Interface>
+std::shared_ptr<Interface> SceneBuilder::create(const Block& block) {
+  if (!known(block)) return nullptr;
+  const std::vector<Parameter>& rows = registry_.find(block.kind, block.plugin)->schema->params;
+  const std::vector<Value> values = valuesFor(rows, block);
+  host_.setPlace(at(block.span));
+  VestigeError why{"", -1};
+  auto made = registry_.create<Interface>(block.kind, block.plugin, Values(values, block.world),
+                                          host_, why);
+  if (!made) {
+    Span span = at(block.span);
+    if (why.input >= 0 && why.input < int(values.size()) && values[why.input].span.file >= 0)
+      span = values[why.input].span;
+    error(span, fmt::format("{}: {}", described(block), why.text));
+  }
+  return made;
+}
+
+bool SceneBuilder::isInvertible(const Affine& transform, Span place) {
+  // Relative to the lengths of the columns: a scene in nanometres is no error.
+  const Mat3 l = transform.linear();
+  const double size = double(length(l.c[0])) * length(l.c[1]) * length(l.c[2]);
+  const double d = transform.determinant();
+  if (std::isfinite(d) && std::abs(d) > 1e-9 * size && size > 0) return true;
+  error(place, "its transforms flatten it to no thickness (a scale of 0, or a singular matrix)");
+  return false;
+}
+
+// ---------------------------------------------------------------- shapes
+std::shared_ptr<const Shape> SceneBuilder::shapeFor(const Block& block) {
+  const std::string key = shapeKey(block, description_);
+  if (const auto found = shapes_.find(key); found != shapes_.end()) return found->second;
+  const std::shared_ptr<const Shape> shape = create<Shape>(block);
+  return shapes_[key] = shape;
+}
+
+void SceneBuilder::addShape(const Block& block, const Block* outerBrdf) {
+  place_ = block.span;
+  // A brdf outside of a union is for the parts that have none of their own.
+  const Block* brdf = block.child("brdf") ? block.child("brdf") : outerBrdf;
+  if (block.kind == "union") {
+    for (const Block& part : block.children)
+      if (part.kind == "shape" || part.kind == "union") addShape(part, brdf);
+    return;
+  }
+  if (!isInvertible(block.world, block.span)) return;
+  const std::shared_ptr<const Shape> shape = shapeFor(block);
+  if (!shape) return;
+  if (shape->parts()) return addMeshParts(block, shape, brdf);
+  Placement p;
+  p.shape = shape, p.toWorld = block.world, p.closed = shape->isClosed();
+  const Value* sides = block.find(kEmissionSides);
+  place(p, brdf, block.find(kEmission), sides && sides->text == "both", block);
+}
+
+void SceneBuilder::addMeshParts(const Block& block, const std::shared_ptr<const Shape>& shape,
+                                const Block* brdf) {
+  const Value* sides = block.find(kEmissionSides);
+  for (const MeshPart& part : *shape->parts()) {
+    Placement p;
+    p.shape = shape, p.mesh = &part.mesh, p.toWorld = block.world, p.closed = shape->isClosed();
+    const Value* emission = block.find(kEmission);
+    if (!emission && part.emission.kind != Value::Kind::none) emission = &part.emission;
+    place(p, brdf ? brdf : part.brdf.get(), emission, sides && sides->text == "both", block);
+  }
+}
+
+void SceneBuilder::place(Placement p, const Block* brdf, const Value* emission, bool bothSides,
+                         const Block& shapeBlock) {
+  p.object = addObject(brdf, shapeBlock.world);
+  if (p.object < 0) return;
+  p.translucent = impl_.materials[std::size_t(impl_.objectMaterial[p.object])].isTranslucent;
+  if (emission && emission->kind != Value::Kind::none)
+    addEmission(p, *emission, bothSides, shapeBlock);
+  impl_.world.add(p);
+}
+
+int SceneBuilder::addObject(const Block* brdf, const Affine& partToWorld) {
+  static const Block plain = defaultBrdf();
+  const Material material = materialFor(brdf ? *brdf : plain, partToWorld);
+  if (!material.brdf) return -1;
+  impl_.materials.push_back(material);
+  impl_.objectMaterial.push_back(int(impl_.materials.size()) - 1);
+  return int(impl_.objectMaterial.size()) - 1;
+}
+
+void SceneBuilder::addEmission(Placement& p, const Value& emission, bool bothSides,
+                               const Block& shapeBlock) {
+  const Real area = p.mesh ? Real(1) : p.shape->area();
+  if (!(area > 0) || (p.shape && p.shape->bounds().isInfinite())) {
+    error(emission.span.file >= 0 ? emission.span : shapeBlock.span,
+          fmt::format(
+              "'{}' has no end, so it cannot shine: use a bounded shape, or light environment",
+              shapeBlock.plugin));
+    return;
+  }
+  std::function<Rgb(const SurfacePoint&)> radiance;
+  Rgb mean;
+  if (emission.kind == Value::Kind::block) {
+    const std::optional<PlacedPigment> placed = pigment(*emission.block, shapeBlock.world);
+    if (!placed) return;
+    mean = placed->pigment->mean().colour;
+    radiance = [placed = *placed](const SurfacePoint& at) { return placed.eval(at, {}).colour; };
+  } else {
+    const InputValue c = constantInput(rgb(kEmission, 0), emission);
+    mean = {c.v[0], c.v[1], c.v[2]};
+    if (isBlack(mean)) return;
+    radiance = [mean](const SurfacePoint&) { return mean; };
+  }
+  p.light = int(impl_.ownedLights.size());
+  impl_.ownedLights.push_back(makeShapeLight(p, radiance, bothSides, mean));
+}
+
+// ---------------------------------------------------------------- materials
+std::optional<PlacedPigment> SceneBuilder::pigment(const Block& block, const Affine& outer) {
+  // A file's own materials know no world: they move with the shape that brought them.
+  const Affine world = block.span.file >= 0 ? block.world : outer * block.world;
+  if (!isInvertible(world, at(block.span))) return std::nullopt;
+  const std::shared_ptr<const Pigment> made = create<Pigment>(block);
+  if (!made) return std::nullopt;
+  return PlacedPigment{made, world.inverse(), block.own.inverse()};
+}
+
+Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld) {
+  Material m;
+  const int errorsBefore = diagnostics_.errors();
+  m.brdf = create<Brdf>(block);
+  if (!m.brdf) return m;
+  const std::vector<Parameter>& rows = registry_.schema("brdf", block.plugin)->inputs;
+  if (rows.size() > kMaxInputs) {
+    error(block.span, fmt::format("brdf {} declares {} inputs, at most {} are possible",
+                                  block.plugin, rows.size(), kMaxInputs));
+    m.brdf = nullptr;
+    return m;
+  }
+  m.normalMap = int(rows.size()) - 2, m.opacity = m.normalMap + 1;
+  for (int i = 0; i < int(rows.size()); ++i) {
+    const Value* given = block.find(rows[i].name);
+    if (!given || given->kind != Value::Kind::block) {
+      m.constants[i] = constantInput(rows[i], given ? *given : rows[i].initial);
+      continue;
+    }
+    const std::optional<PlacedPigment> p = pigment(*given->block, partToWorld);
+    if (!p) continue;
+    const Rgba mean = p->pigment->mean();
+    m.constants[i] = {{mean.colour.r, mean.colour.g, mean.colour.b, mean.alpha}};
+    m.textured.push_back(
+        {i, rows[i].type == ValueType::real, Real(rows[i].low), Real(rows[i].high), *p});
+    if (i == m.normalMap) m.hasNormalMap = true;
+    if (i == m.opacity) m.isTranslucent = true;
+  }
+  if (m.constants[m.opacity].v[0] < 1) m.isTranslucent = true;
+  if (diagnostics_.errors() > errorsBefore) m.brdf = nullptr;
+  return m;
+}
+
+// ---------------------------------------------------------------- lights, camera, the rest
+void SceneBuilder::addLight(const Block& block) {
+  if (!isInvertible(block.world, block.span)) return;
+  const std::shared_ptr<Light> light = create<Light>(block);
+  if (!light) return;
+  const int index = int(impl_.ownedLights.size());
+  impl_.ownedLights.push_back(light);
+  if (!light->geometry()) return;
+  impl_.materials.emplace_back();  // reflects nothing
+  impl_.objectMaterial.push_back(int(impl_.materials.size()) - 1);
+  Placement p;
+  p.mesh = light->geometry(), p.object = int(impl_.objectMaterial.size()) - 1, p.light = index;
+  impl_.world.add(p);
+}
+
+void SceneBuilder::addCamera() {
+  if (!cameraBlock_) {
+    error({},
+          "the scene has no camera: write one, as 'camera pinhole { location <0, 1, -5> look_at "
+          "<0, 1, 0> }'");
+    return;
+  }
+  if (isInvertible(cameraBlock_->world, cameraBlock_->span))
+    impl_.camera = create<Camera>(*cameraBlock_);
+}
+
+void SceneBuilder::addIntegrator() {
+  Block wanted;
+  wanted.kind = "integrator", wanted.plugin = "path";
+  if (integratorBlock_) wanted = *integratorBlock_;
+  if (!options_.integrator.empty() && options_.integrator != wanted.plugin) {
+    wanted = {};
+    wanted.kind = "integrator", wanted.plugin = options_.integrator;
+  }
+  impl_.integrator = create<Integrator>(wanted);
+  impl_.integratorName = wanted.plugin;
+}
+
+void SceneBuilder::readFilm(const Block& block) {
+  const std::vector<Value> v = valuesFor(registry_.schema("film", "")->params, block);
+  impl_.film.width = int(v[0].v[0]), impl_.film.height = int(v[0].v[1]);
+  impl_.film.filter = v[1].text == "gaussian"          ? PixelFilter::gaussian
+                      : v[1].text == "blackman_harris" ? PixelFilter::blackmanHarris
+                                                       : PixelFilter::box;
+  std::copy(v[2].v, v[2].v + 4, impl_.film.crop);
+  if (!(v[2].v[0] < v[2].v[2] && v[2].v[1] < v[2].v[3]))
+    error(v[2].span,
+          "crop is <left, top, right, bottom>: left must be less than right and top less "
+          "than bottom");
+}
+
+Diagnostic& SceneBuilder::error(Span span, std::string message) {
+  return diagnostics_.error(span, std::move(message));
+}
+
+std::unique_ptr<Scene> buildScene(const SceneDesc& description, const Registry& registry,
+                                  const BuildOptions& options, Diagnostics& diagnostics) {
+  return SceneBuilder(description, registry, options, diagnostics).build();
+}
+
+}  // namespace vestige

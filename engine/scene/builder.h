@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a description to a scene: creates plugins, places shapes, wires materials and lights. Used
+// by buildScene() only.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene_host.h"
+#include "engine/scene/scene_impl.h"
+
+namespace vestige {
+
+/// The values of a schema's params for a block: given or default, numbers promoted to the row's
+/// type.
+std::vector<Value> valuesFor(const std::vector<Parameter>& rows, const Block& block);
+/// One value as an evaluated input of the row's type.
+InputValue constantInput(const Parameter& row, const Value& value);
+
+class SceneBuilder {
+ public:
+  SceneBuilder(const SceneDesc& description, const Registry& registry, const BuildOptions& options,
+               Diagnostics& diagnostics);
+  std::unique_ptr<Scene> build();
+
+ private:
+  template <class Interface>
+  std::shared_ptr<Interface> create(const Block& block);
+  bool known(const Block& block);
+
+  void addTop(const Block& block);
+  void addShape(const Block& block, const Block* outerBrdf);
+  void addMeshParts(const Block& block, const std::shared_ptr<const Shape>& shape,
+                    const Block* brdf);
+  /// Shares one shape among blocks that say the same.
+  std::shared_ptr<const Shape> shapeFor(const Block& block);
+  /// Object of a placement that wears a brdf block (null: default lambert); -1 after an error.
+  int addObject(const Block* brdf, const Affine& partToWorld);
+  void place(Placement placement, const Block* brdf, const Value* emission, bool bothSides,
+             const Block& shapeBlock);
+  void addEmission(Placement& placement, const Value& emission, bool bothSides,
+                   const Block& shapeBlock);
+  void addLight(const Block& block);
+  void addCamera();
+  void addIntegrator();
+  void readFilm(const Block& block);
+  std::optional<PlacedPigment> pigment(const Block& block, const Affine& outer);
+  Material materialFor(const Block& block, const Affine& partToWorld);
+  bool isInvertible(const Affine& transform, Span place);
+  /// A block's span, or that of the shape whose file brought the block along.
+  Span at(Span span) const { return span.file >= 0 ? span : place_; }
+  Diagnostic& error(Span span, std::string message);
+
+  const SceneDesc& description_;
+  const Registry& registry_;
+  const BuildOptions& options_;
+  Diagnostics& diagnostics_;
+  std::unique_ptr<Scene> scene_;
+  Scene::Impl& impl_;
+  SceneHost host_;
+  const Block* cameraBlock_ = nullptr;
+  const Block* integratorBlock_ = nullptr;
+  Span place_;  ///< of the shape being placed
+  std::map<std::string, std::shared_ptr<const Shape>> shapes_;
+};
+
+}  // namespace vestige

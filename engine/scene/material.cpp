@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scene/material.h"
+
+namespace vestige {
+namespace {
+
+/// A shading normal is bent until it sees the path at this cosine at least.
+constexpr Real kLeastCosine = Real(1e-3);
+
+Vec2 linearUv(const Affine& a, Vec2 d) noexcept {
+  const Vec3 v = a.vector({d.x, d.y, 0});
+  return {v.x, v.y};
+}
+
+InputValue toInput(const Rgba& c, const Material::TexturedInput& t) noexcept {
+  const auto within = [&](Real x) { return std::clamp(x, t.low, t.high); };
+  if (t.isReal) return {{within(luminance(c.colour)), 0, 0, 1}};
+  return {{within(c.colour.r), within(c.colour.g), within(c.colour.b), c.alpha}};
+}
+
+/// Tangent-space normal of a map, on the surface's own side. u runs along s, v along t as the
+/// surface's uv do, so mirrored uv read correctly.
+Vec3 mappedNormal(const Surface& s, Vec3 normal, Rgb map) noexcept {
+  const Frame f = Frame::along(normal, s.dPdu);
+  const Real sign = dot(f.t, s.dPdv) < 0 ? Real(-1) : Real(1);
+  const Vec3 local{2 * map.r - 1, sign * (2 * map.g - 1), std::max(2 * map.b - 1, Real(1e-3))};
+  return normalize(f.toWorld(local));
+}
+
+/// The nearest normal to n that toPrev sees at kLeastCosine.
+Vec3 bent(Vec3 n, Vec3 toPrev) noexcept {
+  const Real c = dot(n, toPrev);
+  if (c >= kLeastCosine) return n;
+  // n' = a across + b toPrev with unit length and n'.toPrev = kLeastCosine
+  const Vec3 across = n - c * toPrev;
+  const Real l = length(across);
+  if (!(l > 0)) return toPrev;
+  return kLeastCosine * toPrev + (safeSqrt(1 - sqr(kLeastCosine)) / l) * across;
+}
+
+}  // namespace
+
+Rgba PlacedPigment::eval(const SurfacePoint& at, const Footprint& footprint) const noexcept {
+  Lookup lookup;
+  lookup.position = fromWorld.point(at.position);
+  const Vec3 uv = fromUv.point({at.uv.x, at.uv.y, 0});
+  lookup.uv = {uv.x, uv.y};
+  for (const int i : {0, 1}) {
+    lookup.footprint.dP[i] = fromWorld.vector(footprint.dP[i]);
+    lookup.footprint.dUv[i] = linearUv(fromUv, footprint.dUv[i]);
+  }
+  return pigment->eval(lookup);
+}
+
+Real Material::opacityAt(const SurfacePoint& at) const noexcept {
+  for (const TexturedInput& t : textured)
+    if (t.input == opacity)
+      return std::clamp(luminance(t.pigment.eval(at, {}).colour), Real(0), Real(1));
+  return opacity < 0 ? Real(1) : constants[opacity].v[0];
+}
+
+Inputs Material::evaluate(const SurfacePoint& at, const Footprint& footprint,
+                          InputBuffer& buffer) const noexcept {
+  if (textured.empty()) return Inputs(constants.data());
+  buffer = constants;
+  for (const TexturedInput& t : textured)
+    buffer[t.input] = toInput(t.pigment.eval(at, footprint), t);
+  return Inputs(buffer.data());
+}
+
+Interaction interact(const Material& material, const Surface& surface, Vec3 toPrev,
+                     const Footprint& footprint, InputBuffer& buffer) noexcept {
+  Interaction x;
+  x.toPrev = toPrev;
+  x.brdf = material.brdf.get();
+  x.point.inputs = material.evaluate(surface, footprint, buffer);
+
+  Vec3 normal = surface.normal;
+  if (dot(normal, surface.geometricNormal) < 0) normal = -normal;
+  if (material.hasNormalMap)
+    normal = mappedNormal(surface, normal, x.point.inputs.rgb(material.normalMap));
+  const bool behind = dot(toPrev, surface.geometricNormal) < 0;
+  x.geometricNormal = behind ? -surface.geometricNormal : surface.geometricNormal;
+  x.frame = Frame::along(bent(behind ? -normal : normal, toPrev), surface.dPdu);
+  x.point.toPrev = x.frame.toLocal(toPrev);
+  x.point.inside = behind;
+  if (material.opacity >= 0)
+    x.opacity = std::clamp(x.point.inputs.real(material.opacity), Real(0), Real(1));
+  return x;
+}
+
+}  // namespace vestige

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// A BRDF with its inputs: constants, and pigments with the spaces that they live in.
+#pragma once
+#include <vestige/brdf.h>
+#include <vestige/integrator.h>
+#include <vestige/pigment.h>
+
+#include <memory>
+#include <vector>
+
+namespace vestige {
+
+/// A pigment at its place in the scene.
+struct PlacedPigment {
+  std::shared_ptr<const Pigment> pigment;
+  Affine fromWorld;  ///< undoes all transforms: for positions
+  Affine fromUv;     ///< undoes the pigment's own: for uv
+  /// The pigment at a point of a surface, averaged over a footprint (world space, uv).
+  Rgba eval(const SurfacePoint& at, const Footprint& footprint) const noexcept;
+};
+
+struct Material {
+  struct TexturedInput {
+    int input;
+    bool isReal;     ///< takes the luminance
+    Real low, high;  ///< the schema's range, which a texture may not leave either
+    PlacedPigment pigment;
+  };
+
+  std::shared_ptr<const Brdf> brdf;  ///< null: reflects nothing
+  InputBuffer constants{};           ///< of every input; textured ones hold their mean
+  std::vector<TexturedInput> textured;
+  int normalMap = -1, opacity = -1;  ///< indices of these inputs
+  bool hasNormalMap = false;
+  bool isTranslucent = false;  ///< opacity may be below 1
+
+  /// Opacity alone, for shadow rays.
+  Real opacityAt(const SurfacePoint& at) const noexcept;
+  /// Looks the inputs up; constants are not copied where nothing is textured.
+  Inputs evaluate(const SurfacePoint& at, const Footprint& footprint,
+                  InputBuffer& buffer) const noexcept;
+};
+
+/// Everything a BRDF needs at a surface, seen along toPrev [SDK: brdf.h says which way it faces].
+Interaction interact(const Material& material, const Surface& surface, Vec3 toPrev,
+                     const Footprint& footprint, InputBuffer& buffer) noexcept;
+
+}  // namespace vestige

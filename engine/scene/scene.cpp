@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scene/scene.h"
+
+#include "engine/scene/scene_impl.h"
+
+namespace vestige {
+namespace {
+
+/// Of all choices, this share is spread evenly over the lights.
+constexpr double kEvenShare = 0.1;
+
+LightHit seenFrom(const Surface& s, Vec3 from) noexcept {
+  const Vec3 d = s.position - from;
+  const Real distance = length(d);
+  return {from, d / distance, distance, s.position, s.geometricNormal, s.uv};
+}
+
+}  // namespace
+
+void LightTable::build(std::span<const Light* const> lights) {
+  std::vector<double> power;
+  double total = 0;
+  for (const Light* l : lights) {
+    const double p = luminance(l->power());
+    power.push_back(std::isfinite(p) && p > 0 ? p : 0);
+    total += power.back();
+  }
+  const double n = double(power.size());
+  double sum = 0;
+  for (const double p : power) {
+    const double chance = total > 0 ? (1 - kEvenShare) * p / total + kEvenShare / n : 1 / n;
+    chances_.push_back(Real(chance));
+    upTo_.push_back(Real(sum += chance));
+  }
+}
+
+std::optional<LightChoice> LightTable::choose(Real u) const noexcept {
+  if (chances_.empty()) return std::nullopt;
+  const auto found = std::upper_bound(upTo_.begin(), upTo_.end() - 1, u);
+  const int light = int(found - upTo_.begin());
+  return LightChoice{light, chances_[std::size_t(light)]};
+}
+
+void Scene::Impl::commit() {
+  world.commit();
+  for (std::size_t i = 0; i < ownedLights.size(); ++i) {
+    ownedLights[i]->setScene(world.bounds());
+    lightList.push_back(ownedLights[i].get());
+    if (ownedLights[i]->isInfinite()) infinite.push_back(int(i));
+  }
+  lightTable.build(lightList);
+}
+
+Real Scene::Impl::transmittance(const Ray& ray) const noexcept {
+  const auto opacity = [](const void* self, const Surface& s) {
+    return static_cast<const Impl*>(self)->material(s).opacityAt(s);
+  };
+  return world.transmittance(ray, opacity, this);
+}
+
+Rgb Scene::Impl::emitted(const Surface& s, Vec3 from) const noexcept {
+  return s.light < 0 ? Rgb{} : lightList[std::size_t(s.light)]->eval(seenFrom(s, from));
+}
+
+Real Scene::Impl::lightPdf(const Surface& s, Vec3 from) const noexcept {
+  return s.light < 0
+             ? 0
+             : lightTable.chance(s.light) * lightList[std::size_t(s.light)]->pdf(seenFrom(s, from));
+}
+
+Scene::Scene() : impl_(std::make_unique<Impl>()) {}
+Scene::~Scene() = default;
+const SceneView& Scene::view() const noexcept { return *impl_; }
+const Camera& Scene::camera() const noexcept { return *impl_->camera; }
+Integrator& Scene::integrator() noexcept { return *impl_->integrator; }
+const std::string& Scene::integratorName() const noexcept { return impl_->integratorName; }
+const FilmSettings& Scene::film() const noexcept { return impl_->film; }
+std::size_t Scene::textureBytes() const noexcept { return impl_->textures.bytes(); }
+std::size_t Scene::triangles() const noexcept { return impl_->world.triangles(); }
+std::uint64_t Scene::hash() const noexcept { return impl_->hash; }
+
+}  // namespace vestige

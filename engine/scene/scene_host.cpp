@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scene/scene_host.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace vestige {
+
+namespace fs = std::filesystem;
+
+std::string SceneHost::find(const std::string& file, Span span, std::string& error) {
+  if (file.empty()) {
+    error = "the file name is empty";
+    return "";
+  }
+  const std::int32_t text = span.file >= 0 ? span.file : place_.file;
+  std::vector<fs::path> tried = {fs::path(file)};
+  if (!tried[0].is_absolute() && text >= 0 && text < int(description_.files.size()))
+    tried.insert(tried.begin(),
+                 fs::path(description_.files[std::size_t(text)]).parent_path() / file);
+  std::error_code ignored;
+  std::string places;
+  for (const fs::path& path : tried) {
+    const fs::path whole = fs::absolute(path, ignored).lexically_normal();
+    if (fs::is_directory(whole, ignored)) {
+      error = fmt::format("'{}' is a folder, not a file", whole.string());
+      return "";
+    }
+    if (fs::exists(whole, ignored)) return whole.string();
+    if (places.find(whole.string()) == places.npos)
+      places += (places.empty() ? "" : " and ") + whole.string();
+  }
+  error = fmt::format("cannot find '{}': looked for {}", file, places);
+  return "";
+}
+
+std::shared_ptr<const Texture> SceneHost::texture(const TextureRequest& request,
+                                                  std::string& error) {
+  const std::string file = find(request.file, request.span, error);
+  return file.empty() ? nullptr : textures_.texture(file, request, error);
+}
+
+void SceneHost::warn(Span span, const std::string& message) {
+  diagnostics_.warning(span.file >= 0 ? span : place_, message);
+}
+
+}  // namespace vestige

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Host that plugins of a scene are created with: files beside the scene text, shared textures.
+#pragma once
+#include <string>
+
+#include "engine/image/image.h"
+
+namespace vestige {
+
+class SceneHost final : public Host {
+ public:
+  SceneHost(const SceneDesc& description, TextureStore& textures, Diagnostics& diagnostics)
+      : description_(description), textures_(textures), diagnostics_(diagnostics) {}
+
+  std::string find(const std::string& file, Span span, std::string& error) override;
+  std::shared_ptr<const Texture> texture(const TextureRequest& request,
+                                         std::string& error) override;
+  void warn(Span span, const std::string& message) override;
+  /// Where spans point that a plugin did not set: at the block it was made for.
+  void setPlace(Span span) { place_ = span; }
+
+ private:
+  const SceneDesc& description_;
+  TextureStore& textures_;
+  Diagnostics& diagnostics_;
+  Span place_;
+};
+
+}  // namespace vestige

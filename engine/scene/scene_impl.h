@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The inside of a Scene: what the builder fills and integrators see as SceneView.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "engine/image/image.h"
+#include "engine/scene/material.h"
+#include "engine/scene/scene.h"
+#include "engine/trace/world.h"
+
+namespace vestige {
+
+/// Chooses lights by power, each with a least chance, so that none is starved by a bright sun.
+class LightTable {
+ public:
+  void build(std::span<const Light* const> lights);
+  std::optional<LightChoice> choose(Real u) const noexcept;
+  Real chance(int light) const noexcept { return chances_[std::size_t(light)]; }
+
+ private:
+  std::vector<Real> chances_, upTo_;
+};
+
+struct Scene::Impl final : SceneView {
+  TextureStore textures;
+  World world;
+  std::vector<Material> materials;
+  std::vector<int> objectMaterial;                   ///< by Surface::object
+  std::vector<std::shared_ptr<const Shape>> shapes;  ///< kept alive
+  std::vector<std::shared_ptr<Light>> ownedLights;
+  std::vector<const Light*> lightList;
+  std::vector<int> infinite;
+  LightTable lightTable;
+  std::shared_ptr<const Camera> camera;
+  std::shared_ptr<Integrator> integrator;
+  std::string integratorName;
+  FilmSettings film;
+  std::uint64_t hash = 0;
+
+  /// After everything was added: builds the tree and the table of lights.
+  void commit();
+
+  std::optional<Surface> intersect(const Ray& ray) const noexcept override {
+    return world.intersect(ray);
+  }
+  Real transmittance(const Ray& ray) const noexcept override;
+  Interaction shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
+                    InputBuffer& buffer) const noexcept override {
+    return interact(material(surface), surface, toPrev, footprint, buffer);
+  }
+  Rgb emitted(const Surface& surface, Vec3 from) const noexcept override;
+  Real lightPdf(const Surface& surface, Vec3 from) const noexcept override;
+  std::span<const Light* const> lights() const noexcept override { return lightList; }
+  std::optional<LightChoice> chooseLight(Real u) const noexcept override {
+    return lightTable.choose(u);
+  }
+  Real lightChance(int light) const noexcept override { return lightTable.chance(light); }
+  std::span<const int> infiniteLights() const noexcept override { return infinite; }
+  Bounds bounds() const noexcept override { return world.bounds(); }
+  std::span<const Patch> patches() const noexcept override { return world.patches(); }
+  Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept override {
+    return world.patchArea(patch, low, high);
+  }
+
+ private:
+  const Material& material(const Surface& s) const noexcept {
+    return materials[std::size_t(objectMaterial[std::size_t(s.object)])];
+  }
+};
+
+}  // namespace vestige
