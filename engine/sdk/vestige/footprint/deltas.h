@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far a random number may be moved: the region that one path stands for, number by number.
+//
+// The paths of a pixel (or of a light) share the unit square of each number among them; delta is
+// the share of one of them. Few paths: wide footprints. [PD01 Sec. 3, MATH 3]
+#pragma once
+#include <vestige/math.h>
+
+#include <cstdint>
+
+namespace vestige {
+
+/// Where deltas come from; words of the scene language (docs/language.md, footprint).
+enum class Bound {
+  none,    ///< no footprints at all
+  pixel,   ///< the film's numbers only: Igehy's ray differentials
+  local,   ///< 1/sqrt of the samples drawn at that event: splitting [PD01 Sec. 3.1]
+  global,  ///< N_eff^(-1/M): all numbers share what the whole path has [PD01 Sec. 3.1]
+  safe,    ///< (own index in the pixel)^(-3/4): shrinks fast enough never to lose [MATH 3.2]
+};
+
+struct DeltaPolicy {
+  Bound bound = Bound::safe;
+  /// Largest relative change of the contribution over a footprint [PD01 Eq. 14]; infinite: no
+  /// limit.
+  Real limit = kInfinity;
+  Real scale = 1;     ///< multiplies the bound
+  Real exponent = 0;  ///< replaces that of global (1/M) or safe (3/4); 0: as it is
+};
+
+/// Exponent of `safe`.
+inline constexpr Real kSafeExponent = Real(0.75);
+
+/// How many paths there are like this one, and how many numbers made it.
+class PathCount {
+ public:
+  /// `index`: of this sample in its pixel; `declared`: samples a pixel (particles of all lights)
+  /// the user asked for, 0 if open ended, then index + 1 stands for it.
+  void begin(std::uint64_t index, std::uint64_t declared, int variables) noexcept {
+    index_ = Real(index + 1);
+    total_ = declared > 0 ? Real(declared) : index_;
+    share_ = 1, variables_ = variables;
+  }
+  /// A discrete choice that this path survived, with its probability: roulette (survival!), lobe,
+  /// light, opacity. Fewer paths are like it.
+  void chance(Real probability) noexcept { share_ *= probability; }
+  /// A splitting into n children.
+  void split(int n) noexcept { share_ *= Real(n); }
+  /// Numbers drawn at an event: 2, or 0 if specular.
+  void drew(int numbers) noexcept { variables_ += numbers; }
+
+  Real effective() const noexcept { return total_ * share_; }  ///< N_eff
+  Real effectiveIndex() const noexcept { return index_ * share_; }
+  Real total() const noexcept { return total_; }
+  int variables() const noexcept { return variables_; }  ///< M
+
+ private:
+  Real index_ = 1, total_ = 1, share_ = 1;
+  int variables_ = 0;
+};
+
+/// The bound that all numbers of a path share, in [0, 1]; for `pixel` and `local` that of the
+/// film's numbers.
+inline Real commonDelta(const DeltaPolicy& policy, const PathCount& count) noexcept {
+  Real delta = 0;
+  switch (policy.bound) {
+    case Bound::none:
+      return 0;
+    case Bound::pixel:
+    case Bound::local:
+      delta = 1 / std::sqrt(count.total());
+      break;
+    case Bound::global: {
+      const Real e =
+          policy.exponent > 0 ? policy.exponent : Real(1) / Real(std::max(1, count.variables()));
+      delta = std::pow(count.effective(), -e);
+      break;
+    }
+    case Bound::safe:
+      delta = std::pow(count.effectiveIndex(),
+                       -(policy.exponent > 0 ? policy.exponent : kSafeExponent));
+      break;
+  }
+  return std::clamp(policy.scale * delta, Real(0), Real(1));
+}
+
+/// delta_j after the gradient's limit [PD01 Eq. 14]. A gradient of zero limits nothing.
+inline Real limited(Real delta, Real gradient, Real limit) noexcept {
+  const Real g = std::abs(gradient);
+  return delta * g > limit ? limit / g : delta;
+}
+
+}  // namespace vestige

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a smooth facet does: how much it reflects, and where reflected and refracted directions go,
+// each with its derivative. For whole surfaces (glass, phong) and for microfacets alike.
+//
+// Throughout: `prev` and the results are unit vectors that leave the facet; `normal` is a unit
+// vector on prev's side; eta = n_prev / n_next, the quotient of the refractive indices;
+// c = prev . normal in [0,1].
+//
+// [BW99]  Born, Wolf. Principles of optics, 7th ed. 1999. 1.5 (dielectrics), 14.2 (metals)
+// [Sch94] Schlick. An inexpensive BRDF model for physically based rendering. Eurographics 1994.
+// [Ige99] Igehy. Tracing ray differentials. SIGGRAPH 1999.             derivatives of directions
+#pragma once
+#include <vestige/math.h>
+
+namespace vestige {
+
+/// A reflected fraction of unpolarised light, in [0,1], and its derivative by c.
+struct Fresnel {
+  Real value, slope;
+};
+
+/// Near total reflection the refracted direction moves without bound; cosines below this one are
+/// taken as this one, in derivatives only.
+inline constexpr Real kMinRefractedCosine = Real(1e-4);
+
+/// Cosine on the far side; negative where reflection is total.
+inline Real refractedCosine(Real c, Real eta) noexcept {
+  // 1 - eta^2 (1 - c^2), in the form that is exact for eta = 1 however small c is.
+  const Real k = (1 - eta) * (1 + eta) + sqr(eta * c);
+  return k >= 0 ? std::sqrt(k) : Real(-1);
+}
+
+/// eta c - t for the refracted cosine t: the refracted direction is this much of the normal, less
+/// eta prev. In the form that keeps its digits near eta = 1.
+inline Real refractedShift(Real c, Real t, Real eta) noexcept {
+  return (eta - 1) * (eta + 1) / (eta * c + t);
+}
+
+/// Between two dielectrics [BW99 1.5.2]; 1 where reflection is total.
+inline Fresnel fresnelDielectric(Real c, Real eta) noexcept {
+  const Real t = refractedCosine(c, eta);
+  if (t < 0) return {1, 0};
+  const Real s = std::max(eta * c + t, Real(1e-20)), p = std::max(c + eta * t, Real(1e-20));
+  const Real rs = (eta * c - t) / s, rp = (c - eta * t) / p;
+  const Real dt = eta * eta * c / std::max(t, kMinRefractedCosine);
+  const Real q = 2 * eta * (t - c * dt);
+  return {std::min(Real(0.5) * (rs * rs + rp * rp), Real(1)), rs * q / (s * s) + rp * q / (p * p)};
+}
+
+/// From vacuum onto a metal of refractive index n + i k, both >= 0 [BW99 14.2].
+inline Fresnel fresnelConductor(Real c, Real n, Real k) noexcept {
+  const Real c2 = c * c, s2 = 1 - c2;
+  // a + i b is the far side's normal wave number: (a + i b)^2 = (n + i k)^2 - s2; m = a^2 + b^2.
+  const Real real = n * n - k * k - s2, m = std::hypot(real, 2 * n * k);
+  const Real a = safeSqrt((m + real) / 2);
+  const Real dm = m > 0 ? 2 * c * real / m : 0, da = (dm + 2 * c) / (4 * std::max(a, Real(1e-6)));
+  // Each polarisation reflects (x - y) / (x + y); s first, p relative to s.
+  struct Quotient {
+    Real value, slope;
+  };
+  const auto quotient = [](Real x, Real dx, Real y, Real dy) {
+    const Real sum = std::max(x + y, Real(1e-20));
+    return Quotient{(x - y) / sum, 2 * (dx * y - x * dy) / (sum * sum)};
+  };
+  const Real y = 2 * a * c, dy = 2 * (a + c * da);
+  const Quotient s = quotient(m + c2, dm + 2 * c, y, dy);
+  const Quotient p = quotient(c2 * m + s2 * s2, 2 * c * m + c2 * dm - 4 * c * s2,  //
+                              y * s2, dy * s2 - 2 * c * y);
+  const Real value = Real(0.5) * s.value * (1 + p.value);
+  const Real slope = Real(0.5) * (s.slope * (1 + p.value) + s.value * p.slope);
+  return {std::clamp(value, Real(0), Real(1)), slope};
+}
+
+/// f0 at normal incidence, 1 at grazing [Sch94 Eq. 24].
+inline Fresnel fresnelSchlick(Real c, Real f0) noexcept {
+  const Real x = 1 - std::min(c, Real(1)), x2 = x * x;
+  return {f0 + (1 - f0) * x2 * x2 * x, -5 * (1 - f0) * x2 * x2};
+}
+
+/// A direction that left a facet, and how it moves with the facet's normal and with prev; the
+/// matrices apply to tangents of those unit vectors.
+struct Turned {
+  Vec3 direction;
+  Mat3 dPrev, dNormal;
+};
+
+/// Mirror direction [Ige99 Eq. 14].
+inline Turned reflectAt(Vec3 prev, Vec3 normal) noexcept {
+  const Real c = dot(prev, normal);
+  return {2 * c * normal - prev, Real(2) * outer(normal, normal) - identity(),
+          2 * c * identity() + Real(2) * outer(normal, prev)};
+}
+
+/// Refracted direction [Ige99 Eq. 16]. Only where reflection is not total.
+inline Turned refractAt(Vec3 prev, Vec3 normal, Real eta) noexcept {
+  const Real c = dot(prev, normal), t = refractedCosine(c, eta);
+  const Real mu = refractedShift(c, t, eta);
+  const Real dmu = -eta * mu / std::max(t, kMinRefractedCosine);
+  return {mu * normal - eta * prev, dmu * outer(normal, normal) - eta * identity(),
+          mu * identity() + dmu * outer(normal, prev)};
+}
+
+}  // namespace vestige

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// The GGX microfacet surface: density of normals, Smith's masking, visible normals drawn without a
+// pole, and the gradients that path differentials ask for. Local frame, toPrev.z > 0.
+//
+//     f(prev, next) = F(prev . h) D(h) shade(prev) shade(next) / 4                    reflection
+//                   = (1 - F) D shade(prev) shade(next) |prev . h| |next . h| / m^2  transmission
+//     with h = +-(eta prev + next) / m,   m = |eta prev + next|,   eta = n_prev / n_next (1 and +
+//     in reflection),   shade(w) = G1(w) / |w.z|,   and masking separable: G1(prev) G1(next).
+//
+// [Wal07] Walter, Marschner, Li, Torrance. Microfacet models for refraction through rough surfaces.
+//         EGSR 2007.                                                                 the model
+// [DB23]  Dupuy, Benyoub. Sampling visible GGX normals with spherical caps. HPG 2023. the sampler;
+//         here with the concentric disk in place of a polar cap, whose derivative has a pole.
+#pragma once
+#include <vestige/fresnel.h>
+#include <vestige/sampling.h>
+
+namespace vestige {
+
+/// Smoother than this is computed as this: a float cannot tell the directions inside the lobe
+/// apart.
+inline constexpr Real kMinAlpha = Real(1e-4);
+
+/// A refracting facet whose two sides are nearly alike leaves no trace of its normal in the
+/// direction; an index this close to 1 is moved away from it.
+inline constexpr Real kMinIndexStep = Real(1e-3);
+
+/// n_prev / n_next across a rough interface of a solid with index `ior`, seen from outside or from
+/// within.
+inline Real roughInterfaceEta(Real ior, bool inside) noexcept {
+  const Real n = ior >= 1 ? std::max(ior, 1 + kMinIndexStep) : std::min(ior, 1 - kMinIndexStep);
+  return inside ? n : 1 / n;
+}
+
+/// A drawn normal and how it moves.
+struct VisibleNormal {
+  Vec3 h;      ///< unit, z >= 0, prev . h >= 0 but for rounding
+  Mat3x2 du;   ///< per unit of random number
+  Mat3 dPrev;  ///< per radian of toPrev
+};
+
+class Ggx {
+ public:
+  /// Widths along x and y in [0,1]; root-mean-square slopes, about.
+  Ggx(Real alphaX, Real alphaY) noexcept
+      : x_(std::max(alphaX, kMinAlpha)), y_(std::max(alphaY, kMinAlpha)) {}
+  explicit Ggx(Real alpha) noexcept : Ggx(alpha, alpha) {}
+
+  /// D(h), 1/sr [Wal07 Eq. 33, with two widths]. h.z >= 0.
+  Real density(Vec3 h) const noexcept { return 1 / (kPi * x_ * y_ * sqr(stretched(h))); }
+
+  /// G1(w) / |w.z| [Wal07 Eq. 34]: finite at grazing, where both factors vanish.
+  Real shade(Vec3 w) const noexcept { return 2 / (std::abs(w.z) + slant(w)); }
+  /// G1(w) in [0,1], the visible fraction of the facets that face w.
+  Real masking(Vec3 w) const noexcept { return shade(w) * std::abs(w.z); }
+
+  /// Density of the normals that prev sees, per steradian of h.
+  Real visibleDensity(Vec3 prev, Vec3 h) const noexcept {
+    return shade(prev) * density(h) * std::max(dot(prev, h), Real(0));
+  }
+  VisibleNormal sampleVisible(Vec3 prev, Vec2 u) const noexcept;
+
+  /// Gradient of log D by h, across h.
+  Vec3 logDensityGradient(Vec3 h) const noexcept {
+    const Vec3 g = {h.x / sqr(x_), h.y / sqr(y_), h.z};
+    return Real(-4) / stretched(h) * (projection(h) * g);
+  }
+  /// Gradient of log shade by w.
+  Vec3 logShadeGradient(Vec3 w) const noexcept {
+    const Real root = slant(w);
+    const Vec3 g = (1 / root) * Vec3{sqr(x_) * w.x, sqr(y_) * w.y, w.z};
+    return Real(-1) / (std::abs(w.z) + root) * (g + Vec3{0, 0, std::copysign(Real(1), w.z)});
+  }
+
+ private:
+  Real stretched(Vec3 h) const noexcept { return sqr(h.x / x_) + sqr(h.y / y_) + sqr(h.z); }
+  Real slant(Vec3 w) const noexcept { return std::sqrt(sqr(x_ * w.x) + sqr(y_ * w.y) + sqr(w.z)); }
+
+  Real x_, y_;
+};
+
+/// In the stretched space where the surface is a hemisphere, the normals seen by v are halfway
+/// between v and a point c of the cap z > -v.z, uniform by area [DB23 Sec. 4].
+inline VisibleNormal Ggx::sampleVisible(Vec3 prev, Vec2 u) const noexcept {
+  const Mat3 stretch = diagonal(x_, y_, 1);
+  const Real scale = slant(prev);
+  const Vec3 v = (1 / scale) * (stretch * prev);
+  const Disk k = concentricDisk(u);
+  const Real q = std::min(dot(k.d, k.d), Real(1));
+  const Real z = 1 - (1 + v.z) * q;
+  const Real m = std::sqrt(std::max((1 + v.z) * (1 + z), Real(1e-12)));  // 0: the cap's far point
+  const Vec3 c = {m * k.d.x, m * k.d.y, z};
+  const Vec3 sum = {c.x + v.x, c.y + v.y, (1 + v.z) * (1 - q)};  // c + v, exact at the rim
+  const Vec3 y = stretch * sum;
+  const Real size = std::max(length(y), Real(1e-20));
+  const Vec3 h = (1 / size) * y;
+
+  const Mat3 settle = (1 / size) * (projection(h) * stretch);  // dh by d(sum)
+  const auto column = [&](Vec2 d) {
+    const Real dz = -(1 + v.z) * 2 * dot(k.d, d), dm = (1 + v.z) * dz / (2 * m);
+    return settle * Vec3{m * d.x + dm * k.d.x, m * d.y + dm * k.d.y, dz};
+  };
+  const Real dm = ((1 + z) - (1 + v.z) * q) / (2 * m);  // dc by d(v.z): (d dm, -q)
+  const Mat3 rise = identity() + outer({k.d.x * dm, k.d.y * dm, -q}, {0, 0, 1});
+  return {h,
+          {column(k.du[0]), column(k.du[1])},
+          settle * (rise * ((1 / scale) * (projection(v) * stretch)))};
+}
+
+/// The facet that carries prev into next, by reflection (next.z > 0) or refraction.
+struct Facet {
+  Vec3 h;        ///< unit, z > 0; zero vector: there is none
+  Real cosPrev;  ///< prev . h, > 0
+  Real cosNext;  ///< |next . h|, > 0
+  Real length;   ///< |eta prev + next|, with eta = 1 in reflection
+  Real eta;      ///< n_prev / n_next; 1 in reflection
+  Real sign;     ///< h = sign (eta prev + next) / length
+
+  bool exists() const noexcept { return cosPrev > 0; }
+};
+
+/// eta: n_prev / n_next of the interface, not near 1 where next.z < 0.
+inline Facet facetBetween(Vec3 prev, Vec3 next, Real eta) noexcept {
+  const bool reflects = next.z > 0;
+  if (reflects) eta = 1;
+  const Vec3 sum = eta * prev + next;
+  const Real size = length(sum), sign = reflects || eta > 1 ? Real(1) : Real(-1);
+  if (!(size > 0) || next.z == 0) return {};
+  const Vec3 h = (sign / size) * sum;
+  const Real p = dot(prev, h), n = dot(next, h);
+  if (!(h.z > 0 && p > 0 && (reflects ? n > 0 : n < 0))) return {};
+  return {h, p, std::abs(n), size, eta, sign};
+}
+
+/// The facets of a drawn normal, which are known exactly where facetBetween() has to round. For
+/// refraction: only where reflection is not total.
+inline Facet reflectingFacet(Vec3 prev, Vec3 h) noexcept {
+  const Real c = dot(prev, h);
+  return {h, c, c, 2 * c, 1, 1};
+}
+inline Facet refractingFacet(Vec3 prev, Vec3 h, Real eta) noexcept {
+  const Real c = dot(prev, h), t = refractedCosine(c, eta);
+  return {h, c, t, std::abs(refractedShift(c, t, eta)), eta, eta > 1 ? Real(1) : Real(-1)};
+}
+
+/// f / (F or 1 - F), 1/sr: the part of the BRDF that is geometry.
+inline Real facetValue(const Ggx& ggx, const Facet& f, Vec3 prev, Vec3 next) noexcept {
+  const Real common = ggx.density(f.h) * ggx.shade(prev) * ggx.shade(next);
+  return next.z > 0 ? common / 4 : common * (f.cosPrev / f.length) * (f.cosNext / f.length);
+}
+
+/// Density of next for h drawn by sampleVisible, 1/sr, without the chance of the lobe
+/// [Wal07 Eq. 14, 17].
+inline Real facetPdf(const Ggx& ggx, const Facet& f, Vec3 prev, Vec3 next) noexcept {
+  const Real common = ggx.density(f.h) * ggx.shade(prev);
+  return next.z > 0 ? common / 4 : common * (f.cosPrev / f.length) * (f.cosNext / f.length);
+}
+
+/// Gradients of log f by prev and next; `logF` is d(log of the Fresnel factor) / d(prev . h).
+struct FacetGradient {
+  Vec3 dPrev, dNext;
+};
+inline FacetGradient facetLogGradient(const Ggx& ggx, const Facet& f, Vec3 prev, Vec3 next,
+                                      Real logF) noexcept {
+  // The cosines at the facet and the length depend on x = prev . next alone:
+  // cosPrev = sign (eta + x) / length, next . h = sign (eta x + 1) / length, length^2 = 1 + eta^2 +
+  // 2 eta x.
+  const Real m = f.length, m2 = m * m, n = next.z > 0 ? f.cosNext : -f.cosNext;
+  const Real dPrevCos = (f.sign - f.eta * f.cosPrev / m) / m;
+  const Real dNextCos = f.eta * (f.sign - n / m) / m;
+  Real k = logF * dPrevCos;
+  if (next.z < 0) k += dPrevCos / f.cosPrev + dNextCos / n - 2 * f.eta / m2;
+  const Vec3 d = (f.sign / m) * ggx.logDensityGradient(f.h);
+  return {k * next + f.eta * d + ggx.logShadeGradient(prev),
+          k * prev + d + ggx.logShadeGradient(next)};
+}
+
+/// The derivatives of a direction that left a drawn normal.
+inline Mat3x2 byNumbers(const Turned& t, const VisibleNormal& n) noexcept {
+  return t.dNormal * n.du;
+}
+inline Mat3 byPrev(const Turned& t, const VisibleNormal& n) noexcept {
+  return t.dPrev + t.dNormal * n.dPrev;
+}
+
+}  // namespace vestige

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers as a scene writes them, for messages of plugins.
+#pragma once
+#include <vestige/math.h>
+
+#include <cstdio>
+#include <string>
+
+namespace vestige {
+
+/// 38, 0.5, 1e-07: six digits, no padding.
+inline std::string words(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", x == 0 ? 0.0 : x);  // no -0
+  return text;
+}
+/// <0, 1, -5>
+inline std::string words(Vec3 v) {
+  return "<" + words(double(v.x)) + ", " + words(double(v.y)) + ", " + words(double(v.z)) + ">";
+}
+
+}  // namespace vestige
