@@ -23,7 +23,9 @@ struct Limits {
   std::int64_t expandedTokens = 200'000'000;
   std::size_t stringLength = 1 << 20;
   int errors = 20;  ///< then parsing stops
-  int nesting = 256;
+  int nesting = 256;                        ///< of braces, parentheses, calls
+  std::int64_t blocks = 2'000'000;          ///< copies included
+  std::size_t arrayElements = 10'000'000;   ///< of the whole run
 };
 
 struct Options {

@@ -62,6 +62,8 @@ class Film {
   Means means() const;
 
  private:
+  std::size_t index(int x, int y) const noexcept;
+
   int width_, height_;
   Crop crop_;
   std::vector<Aov> aovs_;

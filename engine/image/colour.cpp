@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/image/colour.h"
 
-#include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
+#include <OpenColorIO/OpenColorIO.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -44,9 +44,10 @@ OCIO::ConstConfigRcPtr currentConfig(std::string& error) {
     loadedName = name;
     return loaded;
   } catch (const OCIO::Exception& e) {
-    error = fmt::format("the colour config '{}' that the environment variable OCIO names cannot be "
-                        "used: {}",
-                        name, firstLine(e.what()));
+    error = fmt::format(
+        "the colour config '{}' that the environment variable OCIO names cannot be "
+        "used: {}",
+        name, firstLine(e.what()));
     return nullptr;
   }
 }
@@ -117,16 +118,17 @@ bool chooseView(const OCIO::ConstConfigRcPtr& config, Display& wanted, std::stri
   const char* display = wanted.display.c_str();
   const int views = config->getNumViews(display);
   if (views == 0) {
-    error = fmt::format("the colour config has no display '{}'; it has {}", wanted.display,
-                        names(config->getNumDisplays(), [&](int i) { return config->getDisplay(i); }));
+    error =
+        fmt::format("the colour config has no display '{}'; it has {}", wanted.display,
+                    names(config->getNumDisplays(), [&](int i) { return config->getDisplay(i); }));
     return false;
   }
   if (wanted.view.empty()) wanted.view = config->getDefaultView(display);
   for (int i = 0; i < views; ++i)
     if (wanted.view == config->getView(display, i)) return true;
-  error = fmt::format("the colour config has no view '{}' for the display '{}'; it has {}",
-                      wanted.view, wanted.display,
-                      names(views, [&](int i) { return config->getView(display, i); }));
+  error =
+      fmt::format("the colour config has no view '{}' for the display '{}'; it has {}", wanted.view,
+                  wanted.display, names(views, [&](int i) { return config->getView(display, i); }));
   return false;
 }
 
@@ -159,7 +161,8 @@ std::shared_ptr<const ColourTransform> fromColourSpace(const std::string& space,
     steps->append(out);
     return steps;
   } catch (const OCIO::Exception& e) {
-    error = fmt::format("the colour space '{}' cannot be converted: {}", space, firstLine(e.what()));
+    error =
+        fmt::format("the colour space '{}' cannot be converted: {}", space, firstLine(e.what()));
     return nullptr;
   }
 }

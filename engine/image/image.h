@@ -58,6 +58,8 @@ class TextureStore {
                                          std::string& error);
   /// Bytes held by all textures.
   std::size_t bytes() const;
+  /// Numbers in all textures that were NaN or infinite; they read as 0.
+  std::size_t nonFinite() const;
 
  private:
   struct Impl;

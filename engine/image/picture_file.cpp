@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <filesystem>
 
 namespace vestige {
@@ -38,6 +39,8 @@ bool isSuitable(const OIIO::ImageSpec& spec, const std::string& file, std::strin
 }  // namespace
 
 std::string reason(std::string message, const std::string& file) {
+  if (message.find("could not find a format reader") != message.npos)
+    return "it is of no known format";
   while (!message.empty() && std::isspace(static_cast<unsigned char>(message.front())))
     message.erase(0, 1);
   message = message.substr(0, message.find('\n'));
@@ -49,6 +52,7 @@ std::string reason(std::string message, const std::string& file) {
 }
 
 std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& file, std::string& error) {
+  error.clear();
   if (!isReadable(file, error)) return nullptr;
   OIIO::ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);

@@ -7,7 +7,7 @@
 #include "support/scenes.h"
 
 using namespace vestige;
-using test::block;
+using test::makeBlock;
 
 namespace {
 
@@ -35,15 +35,15 @@ std::string onlyError(const SceneDesc& description) {
 SceneDesc furnace(Block brdf, int depth = 64) {
   SceneDesc s;
   s.blocks = {
-      block("camera", "pinhole",
-            {{"location", vectorValue({0, 0, -4})},
-             {"look_at", vectorValue({0, 0, 0})},
-             {"angle", numberValue(20)}}),
-      block("film", "", {{"resolution", vectorValue({8, 8})}}),
-      block("integrator", "path", {{"depth", numberValue(depth)}}),
-      block("light", "environment", {{"radiance", colourValue(1, 1, 1)}}),
-      block("shape", "sphere", {{"centre", vectorValue({0, 0, 0})}, {"radius", numberValue(1)}},
-            {std::move(brdf)})};
+      makeBlock("camera", "pinhole",
+                {{"location", vectorValue({0, 0, -4})},
+                 {"look_at", vectorValue({0, 0, 0})},
+                 {"angle", numberValue(20)}}),
+      makeBlock("film", "", {{"resolution", vectorValue({8, 8})}}),
+      makeBlock("integrator", "path", {{"depth", numberValue(depth)}}),
+      makeBlock("light", "environment", {{"radiance", colourValue(1, 1, 1)}}),
+      makeBlock("shape", "sphere", {{"centre", vectorValue({0, 0, 0})}, {"radius", numberValue(1)}},
+                {std::move(brdf)})};
   return s;
 }
 
@@ -58,13 +58,13 @@ TEST_CASE("white furnace: what reflects everything disappears", "[scene][furnace
     CHECK(sum / double(m.pixels.size()) == Approx(expected).margin(tolerance));
   };
   const Value white = colourValue(1, 1, 1);
-  check(block("brdf", "lambert", {{"diffuse", white}}), 1, 2e-3);
-  check(block("brdf", "lambert", {{"diffuse", colourValue(0.5, 0.5, 0.5)}}), 0.5, 2e-3);
-  check(block("brdf", "mirror", {{"specular", white}}), 1, 1e-4);
-  check(block("brdf", "glass", {{"ior", numberValue(1.5)}}), 1, 2e-3);
-  check(
-      block("brdf", "lambert", {{"diffuse", colourValue(0, 0, 0)}, {"opacity", numberValue(0.25)}}),
-      0.75 * 0.75, 1e-2);  // through the front and the back
+  check(makeBlock("brdf", "lambert", {{"diffuse", white}}), 1, 2e-3);
+  check(makeBlock("brdf", "lambert", {{"diffuse", colourValue(0.5, 0.5, 0.5)}}), 0.5, 2e-3);
+  check(makeBlock("brdf", "mirror", {{"specular", white}}), 1, 1e-4);
+  check(makeBlock("brdf", "glass", {{"ior", numberValue(1.5)}}), 1, 2e-3);
+  check(makeBlock("brdf", "lambert",
+                  {{"diffuse", colourValue(0, 0, 0)}, {"opacity", numberValue(0.25)}}),
+        0.75 * 0.75, 1e-2);  // through the front and the back
 }
 
 TEST_CASE("the same bits for any number of threads and any number of passes", "[session]") {
@@ -128,18 +128,18 @@ TEST_CASE("what cannot be built is said in one sentence", "[scene]") {
   CHECK_THAT(onlyError(flat), containsText("flatten"));
 
   SceneDesc shiningPlane = test::room(0.5, "path");
-  shiningPlane.blocks.push_back(block("shape", "plane",
-                                      {{"normal", vectorValue({0, 1, 0})},
-                                       {"distance", numberValue(-2)},
-                                       {"emission", colourValue(1, 1, 1)}}));
+  shiningPlane.blocks.push_back(makeBlock("shape", "plane",
+                                          {{"normal", vectorValue({0, 1, 0})},
+                                           {"distance", numberValue(-2)},
+                                           {"emission", colourValue(1, 1, 1)}}));
   CHECK_THAT(onlyError(shiningPlane), containsText("cannot shine"));
 
   SceneDesc missing = test::room(0.5, "path");
-  Block brdf = block("brdf", "lambert");
+  Block brdf = makeBlock("brdf", "lambert");
   Value image;
   image.kind = Value::Kind::block;
-  image.block =
-      std::make_shared<Block>(block("pigment", "image", {{"file", textValue("no_such_file.png")}}));
+  image.block = std::make_shared<Block>(
+      makeBlock("pigment", "image", {{"file", textValue("no_such_file.png")}}));
   brdf.settings.push_back({"diffuse", image, {}});
   missing.blocks.push_back(test::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {brdf}));
   CHECK_THAT(onlyError(missing), containsText("no_such_file.png"));
@@ -147,7 +147,7 @@ TEST_CASE("what cannot be built is said in one sentence", "[scene]") {
 
 TEST_CASE("an empty scene renders black and says so", "[scene]") {
   SceneDesc s;
-  s.blocks = {block("camera", "pinhole", {{"location", vectorValue({0, 0, -4})}})};
+  s.blocks = {makeBlock("camera", "pinhole", {{"location", vectorValue({0, 0, -4})}})};
   Diagnostics diagnostics;
   auto scene = buildScene(s, test::registry(), {}, diagnostics);
   REQUIRE(scene);

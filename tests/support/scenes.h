@@ -12,8 +12,8 @@ namespace vestige::test {
 
 using Settings = std::vector<std::pair<std::string, Value>>;
 
-inline Block block(std::string kind, std::string plugin, Settings settings = {},
-                   std::vector<Block> children = {}) {
+inline Block makeBlock(std::string kind, std::string plugin, Settings settings = {},
+                       std::vector<Block> children = {}) {
   Block b;
   b.kind = std::move(kind), b.plugin = std::move(plugin);
   for (auto& [name, value] : settings) b.settings.push_back({name, value, {}});
@@ -28,13 +28,14 @@ inline const Registry& registry() {
 }
 
 inline Block lambert(double grey) {
-  return block("brdf", "lambert", {{"diffuse", colourValue(grey, grey, grey)}});
+  return makeBlock("brdf", "lambert", {{"diffuse", colourValue(grey, grey, grey)}});
 }
 
 inline Block quad(Vec3 corner, Vec3 edge1, Vec3 edge2, std::vector<Block> children) {
   const auto v = [](Vec3 p) { return vectorValue({p.x, p.y, p.z}); };
-  return block("shape", "quad", {{"corner", v(corner)}, {"edge1", v(edge1)}, {"edge2", v(edge2)}},
-               std::move(children));
+  return makeBlock("shape", "quad",
+                   {{"corner", v(corner)}, {"edge1", v(edge1)}, {"edge2", v(edge2)}},
+                   std::move(children));
 }
 
 /// A closed box of 2 x 2 x 2 around the origin, open to nothing, lit by a square in its ceiling;
@@ -42,17 +43,17 @@ inline Block quad(Vec3 corner, Vec3 edge1, Vec3 edge2, std::vector<Block> childr
 inline SceneDesc room(double grey, const std::string& integrator, Settings settings = {}) {
   SceneDesc s;
   const std::vector<Block> wall = {lambert(grey)};
-  s.blocks = {block("camera", "pinhole",
-                    {{"location", vectorValue({0, 0, -0.99})},
-                     {"look_at", vectorValue({0, 0, 1})},
-                     {"angle", numberValue(90)}}),
-              block("film", "", {{"resolution", vectorValue({32, 32})}}),
-              block("integrator", integrator, std::move(settings)),
-              block("light", "area",
-                    {{"corner", vectorValue({-0.5, 0.99, -0.5})},
-                     {"edge1", vectorValue({1, 0, 0})},
-                     {"edge2", vectorValue({0, 0, 1})},
-                     {"radiance", colourValue(5, 5, 5)}}),
+  s.blocks = {makeBlock("camera", "pinhole",
+                        {{"location", vectorValue({0, 0, -0.99})},
+                         {"look_at", vectorValue({0, 0, 1})},
+                         {"angle", numberValue(90)}}),
+              makeBlock("film", "", {{"resolution", vectorValue({32, 32})}}),
+              makeBlock("integrator", integrator, std::move(settings)),
+              makeBlock("light", "area",
+                        {{"corner", vectorValue({-0.5, 0.99, -0.5})},
+                         {"edge1", vectorValue({1, 0, 0})},
+                         {"edge2", vectorValue({0, 0, 1})},
+                         {"radiance", colourValue(5, 5, 5)}}),
               quad({-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, wall),
               quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, wall),
               quad({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, wall),

@@ -14,7 +14,7 @@
 
 namespace vestige {
 
-/// A reflected fraction of unpolarised light, in [0,1], and its derivative by c.
+/// A reflected (or transmitted) fraction of unpolarised light, in [0,1], and its derivative by c.
 struct Fresnel {
   Real value, slope;
 };
@@ -33,18 +33,29 @@ inline Real refractedCosine(Real c, Real eta) noexcept {
 /// eta c - t for the refracted cosine t: the refracted direction is this much of the normal, less
 /// eta prev. In the form that keeps its digits near eta = 1.
 inline Real refractedShift(Real c, Real t, Real eta) noexcept {
-  return (eta - 1) * (eta + 1) / (eta * c + t);
+  return (eta - 1) * (eta + 1) / std::max(eta * c + t, Real(1e-30));
 }
 
-/// Between two dielectrics [BW99 1.5.2]; 1 where reflection is total.
-inline Fresnel fresnelDielectric(Real c, Real eta) noexcept {
-  const Real t = refractedCosine(c, eta);
-  if (t < 0) return {1, 0};
+/// Between two dielectrics, by both cosines: t = refractedCosine(c, eta) >= 0 [BW99 1.5.2].
+inline Fresnel fresnelReflected(Real c, Real t, Real eta) noexcept {
   const Real s = std::max(eta * c + t, Real(1e-20)), p = std::max(c + eta * t, Real(1e-20));
   const Real rs = (eta * c - t) / s, rp = (c - eta * t) / p;
   const Real dt = eta * eta * c / std::max(t, kMinRefractedCosine);
   const Real q = 2 * eta * (t - c * dt);
   return {std::min(Real(0.5) * (rs * rs + rp * rp), Real(1)), rs * q / (s * s) + rp * q / (p * p)};
+}
+
+/// The rest, 1 - F, in a form that keeps its digits near total reflection.
+inline Fresnel fresnelTransmitted(Real c, Real t, Real eta) noexcept {
+  const Real s = std::max(eta * c + t, Real(1e-20)), p = std::max(c + eta * t, Real(1e-20));
+  const Real value = 2 * eta * (c / s * (t / s) + c / p * (t / p));
+  return {std::min(value, Real(1)), -fresnelReflected(c, t, eta).slope};
+}
+
+/// F by the one cosine; 1 where reflection is total.
+inline Fresnel fresnelDielectric(Real c, Real eta) noexcept {
+  const Real t = refractedCosine(c, eta);
+  return t < 0 ? Fresnel{1, 0} : fresnelReflected(c, t, eta);
 }
 
 /// From vacuum onto a metal of refractive index n + i k, both >= 0 [BW99 14.2].

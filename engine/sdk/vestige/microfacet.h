@@ -32,6 +32,10 @@ inline Real roughInterfaceEta(Real ior, bool inside) noexcept {
   return inside ? n : 1 / n;
 }
 
+/// What of a lies across unit n. As products, since I - n n^T loses the small components of what is
+/// almost along n, and those are all that a smooth surface has.
+inline Vec3 across(Vec3 n, Vec3 a) noexcept { return cross(cross(n, a), n); }
+
 /// A drawn normal and how it moves.
 struct VisibleNormal {
   Vec3 h;      ///< unit, z >= 0, prev . h >= 0 but for rounding
@@ -63,7 +67,7 @@ class Ggx {
   /// Gradient of log D by h, across h.
   Vec3 logDensityGradient(Vec3 h) const noexcept {
     const Vec3 g = {h.x / sqr(x_), h.y / sqr(y_), h.z};
-    return Real(-4) / stretched(h) * (projection(h) * g);
+    return Real(-4) / stretched(h) * across(h, g);
   }
   /// Gradient of log shade by w.
   Vec3 logShadeGradient(Vec3 w) const noexcept {
@@ -95,16 +99,19 @@ inline VisibleNormal Ggx::sampleVisible(Vec3 prev, Vec2 u) const noexcept {
   const Real size = std::max(length(y), Real(1e-20));
   const Vec3 h = (1 / size) * y;
 
-  const Mat3 settle = (1 / size) * (projection(h) * stretch);  // dh by d(sum)
+  const auto settled = [&](Vec3 dSum) { return (1 / size) * across(h, stretch * dSum); };
   const auto column = [&](Vec2 d) {
     const Real dz = -(1 + v.z) * 2 * dot(k.d, d), dm = (1 + v.z) * dz / (2 * m);
-    return settle * Vec3{m * d.x + dm * k.d.x, m * d.y + dm * k.d.y, dz};
+    return settled({m * d.x + dm * k.d.x, m * d.y + dm * k.d.y, dz});
   };
   const Real dm = ((1 + z) - (1 + v.z) * q) / (2 * m);  // dc by d(v.z): (d dm, -q)
-  const Mat3 rise = identity() + outer({k.d.x * dm, k.d.y * dm, -q}, {0, 0, 1});
+  const auto moved = [&](Vec3 dPrev) {
+    const Vec3 dv = (1 / scale) * across(v, stretch * dPrev);
+    return settled(dv + dv.z * Vec3{k.d.x * dm, k.d.y * dm, -q});
+  };
   return {h,
           {column(k.du[0]), column(k.du[1])},
-          settle * (rise * ((1 / scale) * (projection(v) * stretch)))};
+          {moved({1, 0, 0}), moved({0, 1, 0}), moved({0, 0, 1})}};
 }
 
 /// The facet that carries prev into next, by reflection (next.z > 0) or refraction.

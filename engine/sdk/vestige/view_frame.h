@@ -26,7 +26,8 @@ inline std::vector<Parameter> viewRows(const std::vector<Parameter>& own = {}) {
 }
 
 /// A camera's place and axes in world space. Axes are unit and orthogonal to each other, also where
-/// a transform shears; a transform that mirrors turns `right` over, so that the picture is mirrored.
+/// a transform shears; a transform that mirrors turns `right` over, so that the picture is
+/// mirrored.
 struct ViewFrame {
   Vec3 location;
   Vec3 right, up, forward;
@@ -58,7 +59,8 @@ inline ViewFrame viewFrame(const Values& values) {
   const Vec3 forward = normalize(m.vector(own.forward)), up = m.vector(own.up);
   const Vec3 right = normalize(cross(up, forward));
   const Real side = m.determinant() < 0 ? Real(-1) : Real(1);
-  return {m.point(own.location),          side * right, cross(forward, right), forward,
+  return {m.point(own.location),       side * right,
+          cross(forward, right),       forward,
           length(m.vector(own.right)), length(m.vector(own.forward))};
 }
 

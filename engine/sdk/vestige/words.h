@@ -16,7 +16,10 @@ inline std::string words(double x) {
 }
 /// <0, 1, -5>
 inline std::string words(Vec3 v) {
-  return "<" + words(double(v.x)) + ", " + words(double(v.y)) + ", " + words(double(v.z)) + ">";
+  char text[96];
+  const auto plain = [](Real x) { return x == 0 ? 0.0 : double(x); };
+  std::snprintf(text, sizeof text, "<%g, %g, %g>", plain(v.x), plain(v.y), plain(v.z));
+  return text;
 }
 
 }  // namespace vestige

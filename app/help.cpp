@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The first page that a user sees.
+#include "app/command.h"
+
+namespace vestige::app {
+
+std::string helpText() {
+  return R"(vestige: renders scenes written as text, physically based, on the CPU.
+
+A .scene file reads like POV-Ray's language: camera, lights, shapes, materials, with variables,
+loops and macros. Every camera, light, shape and material is a plugin.
+
+  vestige hello.scene                              picture in hello.png
+  vestige render hello.scene -o a.exr -o a.png     two files of one render
+  vestige render hello.scene --time 2m --width 1920
+  vestige check hello.scene                        what is wrong with it, without rendering
+  vestige describe brdf phong                      what a material may say
+
+Commands ('vestige COMMAND --help' for their options)
+  render SCENE      render to EXR, HDR, TIFF, PNG or JPEG; Ctrl-C keeps what is done
+  check SCENE       errors and warnings only; --json for editors
+  describe [KIND [NAME]]
+                    plugins and their parameters, with types, ranges and defaults
+  compare A B       how far picture A is from the reference B
+
+Options
+  -h, --help        this page
+  --version         versions of the program, its libraries and its plugins
+
+Environment
+  VESTIGE_PLUGIN_PATH, VESTIGE_INCLUDE_PATH   more folders, separated by ':'
+  OCIO              OpenColorIO configuration in place of the built-in one
+  NO_COLOR          no colours on the terminal
+
+Exit codes: 0 fine, 1 the scene is wrong, 2 the command line is wrong, 3 the machine failed (disk
+full, place not writable, out of memory, library missing), 130 interrupted.
+)";
+}
+
+}  // namespace vestige::app

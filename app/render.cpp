@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// vestige render: from a scene's text to picture files.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "app/command.h"
+#include "app/interrupt.h"
+#include "app/progress.h"
+#include "app/render_request.h"
+#include "app/statistics.h"
+#include "app/terminal.h"
+
+namespace vestige::app {
+namespace {
+
+void checkIntegrator(const std::string& wanted, const Registry& registry) {
+  if (wanted.empty() || registry.find("integrator", wanted)) return;
+  std::vector<std::string> known;
+  for (const Plugin& p : registry.plugins())
+    if (p.kind == "integrator") known.push_back(p.name);
+  const std::string near = nearestWord(wanted, known);
+  throw Failure(kCommandLineWrong,
+                fmt::format("there is no integrator '{}'; {}", wanted,
+                            near.empty() ? fmt::format("there are {}", fmt::join(known, ", "))
+                                         : fmt::format("did you mean '{}'?", near)));
+}
+
+/// What can be known to fail before any work is done.
+void checkRequest(const RenderRequest& r, const Registry& registry) {
+  checkIntegrator(r.integrator, registry);
+  checkOutputs(r.output, !r.aovs.empty());
+  if (!r.statsFile.empty() && r.statsFile != "-" && !isWritablePlace(r.statsFile))
+    throw Failure(kMachineFailed, fmt::format("'{}' cannot be written", r.statsFile));
+}
+
+RenderResult renderFilm(const RenderRequest& r, Scene& scene, Film& film) {
+  ProgressReport report(progressStyle(r.progress));
+  RenderOptions options = r.render;
+  options.cancel = &catchInterrupts();
+  options.progress = [&](const Progress& p) { report.show(p); };
+  return render(scene, film, options);
+}
+
+void warnAboutCounters(const Counters& c) {
+  if (c.nonFinite > 0)
+    warn(fmt::format("{} had no finite value and {} left out as black; please report the scene",
+                     count((long long)c.nonFinite, "sample"), c.nonFinite == 1 ? "was" : "were"));
+  if (c.clamped > 0)
+    warn(fmt::format("{} brighter than {:.0f} and {} cut down to it",
+                     count((long long)c.clamped, "sample") + (c.clamped == 1 ? " was" : " were"),
+                     kFilmLimit, c.clamped == 1 ? "was" : "were"));
+}
+
+void reportWritten(const RenderRequest& r, const Statistics& s,
+                   const std::vector<std::string>& files) {
+  const ProgressStyle style = progressStyle(r.progress);
+  if (style == ProgressStyle::json) std::cout << doneLine(s, files) << std::endl;
+  if (style != ProgressStyle::bar && style != ProgressStyle::plain) return;
+  const std::string why =
+      s.render.end == RenderEnd::finished ? "" : fmt::format(", {}", endText(s.render.end));
+  for (const std::string& file : files)
+    say(fmt::format("wrote {} ({} x {}, {} a pixel, {}{})", file, s.width, s.height,
+                    count(s.render.samples, "sample"), durationText(s.render.seconds), why));
+}
+
+/// False if the file could not be written.
+bool writeStatistics(const RenderRequest& r, const Statistics& s) {
+  if (r.resultLine) std::cout << resultLine(s) << std::endl;
+  if (r.statsFile.empty()) return true;
+  if (r.statsFile == "-") {
+    std::cout << statisticsJson(s) << std::endl;
+    return true;
+  }
+  std::ofstream file(r.statsFile);
+  file << statisticsJson(s) << std::endl;
+  if (file) return true;
+  complain(fmt::format("the statistics could not be written to '{}'", r.statsFile));
+  return false;
+}
+
+Statistics statisticsOf(const RenderRequest& r, const LoadedScene& loaded, const Film& film,
+                        const RenderResult& result, double importSeconds) {
+  const Crop crop = film.crop();
+  Statistics s;
+  s.importSeconds = importSeconds;
+  s.loadSeconds = loaded.loadSeconds, s.buildSeconds = loaded.buildSeconds;
+  s.render = result, s.seed = r.render.seed;
+  s.textureBytes = loaded.scene->textureBytes(), s.triangles = loaded.scene->triangles();
+  s.width = crop.x1 - crop.x0, s.height = crop.y1 - crop.y0;
+  return s;
+}
+
+int runRender(const RenderRequest& r) {
+  const double start = secondsNow();
+  const Registry registry = loadRegistry(r.input.pluginPaths);
+  const double importSeconds = secondsNow() - start;
+  checkRequest(r, registry);
+
+  const LoadedScene loaded = loadScene(r.input, registry, Stage::built, r.integrator);
+  printDiagnostics(loaded.text);
+  if (!loaded.scene) return kSceneWrong;
+  if (!isAccepted(loaded.text, r.input.werror)) {
+    complain("not rendered: with --werror a warning counts as an error");
+    return kSceneWrong;
+  }
+
+  Film film = makeFilm(*loaded.scene, r.width, r.height, r.cropGiven ? r.crop : nullptr, r.aovs);
+  const RenderResult result = renderFilm(r, *loaded.scene, film);
+  warnAboutCounters(result.counters);
+  const Statistics stats = statisticsOf(r, loaded, film, result, importSeconds);
+  if (result.counters.paths == 0) {
+    complain("stopped before the first sample, so there is no picture to write");
+    return result.end == RenderEnd::cancelled ? kInterrupted : kFine;
+  }
+  if (result.samples == 0) warn("not every pixel got a sample: those without are black");
+  bool failed = false;
+  const PictureFacts facts{loaded.scene->hash(), r.render.seed, result.samples, result.seconds};
+  const auto files = writeOutputs(r.output, pictureOf(film, facts), failed);
+  reportWritten(r, stats, files);
+  if (!writeStatistics(r, stats) || failed) return kMachineFailed;
+  return result.end == RenderEnd::cancelled ? kInterrupted : kFine;
+}
+
+}  // namespace
+
+void addRender(CLI::App& program, Action& chosen) {
+  CLI::App* command = program.add_subcommand("render", "Render a scene to picture files");
+  const auto request = std::make_shared<RenderRequest>();
+  addRenderOptions(*command, *request);
+  command->callback([request, &chosen] {
+    if (request->output.files.empty())
+      request->output.files = {std::filesystem::path(request->input.file).stem().string() + ".png"};
+    chosen = [request] { return runRender(*request); };
+  });
+}
+
+}  // namespace vestige::app

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_request.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <CLI/CLI.hpp>
+
+#include "app/options.h"
+
+namespace vestige::app {
+namespace {
+
+constexpr int kMaxSide = 65536;  // pixels
+constexpr Aov kAovs[] = {Aov::normal,   Aov::albedo, Aov::depth,
+                         Aov::position, Aov::uv,     Aov::samples};  // those that integrators fill
+
+std::vector<Aov> parseAovs(const std::string& text) {
+  std::vector<Aov> wanted;
+  std::vector<std::string> known = {"all"};
+  for (const Aov aov : kAovs) known.push_back(name(aov));
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    const auto found = std::find(known.begin(), known.end(), word);
+    if (found == known.end()) {
+      const std::string near = nearestWord(word, known);
+      throw Failure(kCommandLineWrong,
+                    fmt::format("--aov knows no '{}'; {}", word,
+                                near.empty() ? fmt::format("it knows {}", fmt::join(known, ", "))
+                                             : fmt::format("did you mean '{}'?", near)));
+    }
+    for (const Aov aov : kAovs)
+      if ((word == "all" || word == name(aov)) &&
+          std::find(wanted.begin(), wanted.end(), aov) == wanted.end())
+        wanted.push_back(aov);
+  }
+  return wanted;
+}
+
+void addQuality(CLI::App& command, RenderRequest& r) {
+  const char* group = "Quality";
+  addInteger(
+      command, "--spp", 1, 1 << 30, [&](auto n) { r.render.samples = int(n); },
+      "samples a pixel (what the scene says, or 16)")
+      ->group(group);
+  const auto time = [&](const std::string& text) {
+    const auto seconds = parseDuration(text);
+    if (!seconds)
+      throw Failure(kCommandLineWrong,
+                    fmt::format("--time wants a time as 30s, 2m or 1h30m, found '{}'", text));
+    r.render.seconds = *seconds;
+  };
+  command.add_option_function<std::string>("--time", time, "stop after this time: 30s, 2m, 1h30m")
+      ->take_last()
+      ->type_name("TIME")
+      ->group(group);
+  addInteger(
+      command, "--seed", 0, 0xffffffff, [&](auto n) { r.render.seed = std::uint32_t(n); },
+      "another noise, the same picture (0)")
+      ->group(group);
+  addInteger(
+      command, "--threads", 0, 4096, [&](auto n) { r.render.threads = int(n); },
+      "threads; the picture is the same for any number (0: all)")
+      ->group(group);
+  command.add_option("--integrator", r.integrator, "in place of the scene's")
+      ->take_last()
+      ->type_name("NAME")
+      ->group(group);
+}
+
+void addPicture(CLI::App& command, RenderRequest& r) {
+  const char* group = "Picture";
+  addList(command, "-o,--output", r.output.files,
+          "where the picture goes: .exr .hdr .tif .png .jpg; may be given several times "
+          "(the scene's name with .png)")
+      ->type_name("FILE")
+      ->group(group);
+  addInteger(
+      command, "--width", 1, kMaxSide, [&](auto n) { r.width = int(n); }, "pixels")
+      ->group(group);
+  addInteger(
+      command, "--height", 1, kMaxSide, [&](auto n) { r.height = int(n); }, "pixels")
+      ->group(group);
+  const auto crop = [&](const std::string& text) {
+    if (!parseCrop(text, r.crop))
+      throw Failure(kCommandLineWrong,
+                    fmt::format("--crop wants x0,y0,x1,y1 as shares from 0 to 1 with x0 < x1 and "
+                                "y0 < y1, as in 0.25,0,0.75,0.5; found '{}'",
+                                text));
+    r.cropGiven = true;
+  };
+  command.add_option_function<std::string>("--crop", crop, "only this part, as shares of the film")
+      ->take_last()
+      ->type_name("X0,Y0,X1,Y1")
+      ->group(group);
+  const auto aov = [&](const std::string& text) { r.aovs = parseAovs(text); };
+  command
+      .add_option_function<std::string>(
+          "--aov", aov, "further channels: normal,albedo,depth,position,uv,samples or all")
+      ->take_last()
+      ->type_name("LIST")
+      ->group(group);
+  addNumber(
+      command, "--exposure", -100, 100, [&](double x) { r.output.write.display.exposure = x; },
+      "stops, for PNG and JPEG (0)")
+      ->group(group);
+  const auto view = [&](const std::string& v) {
+    r.output.write.display.view = v, r.output.viewGiven = true;
+  };
+  command.add_option_function<std::string>("--view", view, "view of the OpenColorIO configuration")
+      ->take_last()
+      ->type_name("NAME")
+      ->group(group);
+  command.add_flag("--half", r.output.write.halfFloat, "16 bits a channel in EXR")->group(group);
+}
+
+void addReports(CLI::App& command, RenderRequest& r) {
+  const char* group = "Reports";
+  command.add_option("--progress", r.progress, "auto, bar, plain, json (on stdout) or none (auto)")
+      ->take_last()
+      ->check(CLI::IsMember({"auto", "bar", "plain", "json", "none"}))
+      ->type_name("STYLE")
+      ->group(group);
+  command.add_option("--stats", r.statsFile, "statistics as JSON; - is stdout")
+      ->take_last()
+      ->type_name("FILE")
+      ->group(group);
+  command.add_flag("--result-line", r.resultLine, "a line RESULT {...} with the times on stdout")
+      ->group(group);
+}
+
+}  // namespace
+
+void addRenderOptions(CLI::App& command, RenderRequest& request) {
+  addSceneOptions(command, request.input);
+  addPicture(command, request);
+  addQuality(command, request);
+  addReports(command, request);
+}
+
+}  // namespace vestige::app

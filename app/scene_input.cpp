@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/scene_input.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <chrono>
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include "app/options.h"
+#include "app/terminal.h"
+
+namespace vestige::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kMuch = std::int64_t(1) << 40;  // more than any limit is worth
+
+void addLimits(CLI::App& command, lang::Limits& limits) {
+  const auto limit = [&](const char* name, auto& target, std::int64_t high, const char* help) {
+    const auto set = [&target](std::int64_t n) { target = std::decay_t<decltype(target)>(n); };
+    addInteger(command, name, 1, high, set, fmt::format("{} ({})", help, target))
+        ->group("Limits on hostile scenes");
+  };
+  limit("--max-include-depth", limits.includeDepth, 10'000, "includes inside includes");
+  limit("--max-macro-depth", limits.macroDepth, 100'000, "macro calls inside macro calls");
+  limit("--max-loop-iterations", limits.loopIterations, kMuch, "turns of all loops together");
+  limit("--max-tokens", limits.expandedTokens, kMuch, "words read, each turn of a loop counted");
+  limit("--max-string-length", limits.stringLength, kMuch, "bytes of one string");
+  limit("--max-blocks", limits.blocks, kMuch, "blocks of the scene, copies counted");
+  limit("--max-array-elements", limits.arrayElements, kMuch, "elements of all arrays together");
+  limit("--max-errors", limits.errors, 100'000, "errors after which reading stops");
+  limit("--max-nesting", limits.nesting, 10'000, "blocks and brackets inside each other");
+}
+
+bool isName(const std::string& word) {
+  if (word.empty() || std::isdigit(static_cast<unsigned char>(word[0]))) return false;
+  for (const unsigned char c : word)
+    if (!std::isalnum(c) && c != '_') return false;
+  return true;
+}
+
+/// "Columns=5" taken apart; "Columns" alone means 1.
+std::pair<std::string, std::string> definition(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  const std::string value = equals == std::string::npos ? "1" : text.substr(equals + 1);
+  if (!isName(name) || value.empty())
+    throw Failure(kCommandLineWrong,
+                  fmt::format("-D wants NAME=VALUE, as in -D Columns=5; found '{}'", text));
+  return {name, value};
+}
+
+/// -I, then VESTIGE_INCLUDE_PATH, then what is installed.
+std::vector<std::string> includeFolders(const std::vector<std::string>& given) {
+  std::vector<std::string> folders = given;
+  if (const char* path = std::getenv("VESTIGE_INCLUDE_PATH"))
+    for (const std::string& folder : CLI::detail::split(path, ':'))
+      if (!folder.empty()) folders.push_back(folder);
+  folders.push_back(installedIncludeFolder());
+  return folders;
+}
+
+/// Failure if the file is not there, with the nearest name beside it.
+void checkSceneFile(const std::string& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    throw Failure(kCommandLineWrong, fmt::format("'{}' is a folder, not a scene file", file));
+  if (!fs::exists(file, ignored)) {
+    const fs::path folder = fs::path(file).parent_path();
+    std::vector<std::string> beside;
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored))
+      beside.push_back((folder / entry.path().filename()).string());
+    const std::string near = nearestWord(file, beside);
+    throw Failure(kCommandLineWrong,
+                  fmt::format("there is no scene file '{}'{}", file,
+                              near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  }
+  if (access(file.c_str(), R_OK) != 0)
+    throw Failure(kCommandLineWrong, fmt::format("'{}' may not be read by this user", file));
+}
+
+}  // namespace
+
+void addPluginPath(CLI::App& command, std::vector<std::string>& paths) {
+  addList(command, "--plugin-path", paths, "load the plugin libraries of this folder too")
+      ->type_name("DIR");
+}
+
+void addSceneOptions(CLI::App& command, SceneInput& input) {
+  command.add_option("scene", input.file, "the scene text")->required()->type_name("FILE");
+  addList(command, "-D,--define", input.definitions, "declare a name before the scene is read")
+      ->type_name("NAME=VALUE");
+  addList(command, "-I,--include", input.includePaths, "look for #include files here too")
+      ->type_name("DIR");
+  addPluginPath(command, input.pluginPaths);
+  command.add_flag("--sandbox", input.sandbox,
+                   "refuse includes from outside the scene's folder and the include folders");
+  command.add_flag("--werror", input.werror, "treat warnings as errors");
+  addLimits(command, input.limits);
+}
+
+Registry loadRegistry(const std::vector<std::string>& extraPaths) {
+  std::error_code ignored;
+  for (const std::string& folder : extraPaths)
+    if (!fs::is_directory(folder, ignored))
+      throw Failure(kCommandLineWrong,
+                    fmt::format("--plugin-path: there is no folder '{}'", folder));
+  const std::vector<std::string> folders = pluginFolders(extraPaths);
+  std::vector<std::string> refused;
+  Registry registry = Registry::load(folders, refused);
+  for (const std::string& sentence : refused) warn(sentence);
+  if (!registry.plugins().empty()) return registry;
+  std::string places;
+  for (const std::string& folder : folders) places += "\n  " + folder;
+  throw Failure(kMachineFailed,
+                "found no plugin library, so there is nothing to render with; looked in" + places);
+}
+
+LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage stage,
+                      const std::string& integrator) {
+  lang::Options options;
+  options.includePaths = includeFolders(input.includePaths);
+  for (const std::string& text : input.definitions) options.definitions.push_back(definition(text));
+  options.sandbox = input.sandbox;
+  options.limits = input.limits;
+  checkSceneFile(input.file);
+
+  LoadedScene loaded;
+  const double start = secondsNow();
+  loaded.text = lang::readScene(input.file, registry.schemas(), options);
+  const double read = secondsNow();
+  loaded.loadSeconds = read - start;
+  if (stage == Stage::built && !loaded.text.diagnostics.hasErrors())
+    loaded.scene = buildScene(loaded.text.scene, registry, {integrator}, loaded.text.diagnostics);
+  loaded.buildSeconds = secondsNow() - read;
+  return loaded;
+}
+
+void printDiagnostics(const lang::Result& text) {
+  const bool colour = wantsColour(STDERR_FILENO);
+  int warnings = 0;
+  for (const Diagnostic& d : text.diagnostics.list()) {
+    lang::print(std::cerr, d, *text.sources, colour);
+    warnings += d.severity == Severity::warning;
+  }
+  const int errors = text.diagnostics.errors();
+  if (errors > 0 && warnings > 0)
+    say(count(errors, "error") + ", " + count(warnings, "warning"));
+  else if (errors > 0 || warnings > 0)
+    say(errors > 0 ? count(errors, "error") : count(warnings, "warning"));
+}
+
+bool isAccepted(const lang::Result& text, bool werror) {
+  return !text.diagnostics.hasErrors() && !(werror && !text.diagnostics.list().empty());
+}
+
+double secondsNow() {
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace vestige::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the command line to a scene in memory, complaints printed: what `render` and `check` share.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "engine/scene/scene.h"
+#include "lang/lang.h"
+
+namespace vestige::app {
+
+/// What the user said about where the scene is and how it is read.
+struct SceneInput {
+  std::string file;
+  std::vector<std::string> definitions;   ///< -D name=value, as typed
+  std::vector<std::string> includePaths;  ///< -I
+  std::vector<std::string> pluginPaths;   ///< --plugin-path
+  bool sandbox = false;
+  bool werror = false;
+  lang::Limits limits;
+};
+
+/// The positional SCENE and all options above. `input` must outlive the parsing.
+void addSceneOptions(CLI::App& command, SceneInput& input);
+/// Only --plugin-path.
+void addPluginPath(CLI::App& command, std::vector<std::string>& paths);
+
+/// All plugins of this installation and of the paths; refused libraries are told as warnings.
+/// Failure if there is none at all.
+Registry loadRegistry(const std::vector<std::string>& extraPaths);
+
+/// A text with its meaning, and the scene that was built from it if that was asked for and worked.
+struct LoadedScene {
+  lang::Result text;  ///< the builder's diagnostics included
+  std::unique_ptr<Scene> scene;
+  double loadSeconds = 0, buildSeconds = 0;  ///< language; files, textures, acceleration structure
+};
+enum class Stage { text, built };
+LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage stage,
+                      const std::string& integrator = "");
+
+/// Diagnostics to stderr, and "2 errors, 1 warning" after them if there were any.
+void printDiagnostics(const lang::Result& text);
+/// Whether nothing speaks against rendering: no error, and no warning where those count as errors.
+bool isAccepted(const lang::Result& text, bool werror);
+
+/// Seconds since some fixed moment.
+double secondsNow();
+
+}  // namespace vestige::app

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/statistics.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace vestige::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::uint64_t peakMemoryBytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace
+
+const char* endText(RenderEnd end) {
+  switch (end) {
+    case RenderEnd::timeUp:
+      return "time is up";
+    case RenderEnd::cancelled:
+      return "interrupted";
+    default:
+      return "finished";
+  }
+}
+
+std::string statisticsJson(const Statistics& s) {
+  const Counters& c = s.render.counters;
+  const Json json = {{"version", VESTIGE_VERSION},
+                     {"end", endText(s.render.end)},
+                     {"width", s.width},
+                     {"height", s.height},
+                     {"samples", s.render.samples},
+                     {"seed", s.seed},
+                     {"threads", s.render.threads},
+                     {"import_s", s.importSeconds},
+                     {"load_s", s.loadSeconds},
+                     {"build_s", s.buildSeconds},
+                     {"render_s", s.render.seconds},
+                     {"paths", c.paths},
+                     {"rays", c.rays},
+                     {"shadow_rays", c.shadowRays},
+                     {"nonfinite", c.nonFinite},
+                     {"clamped", c.clamped},
+                     {"triangles", s.triangles},
+                     {"texture_bytes", s.textureBytes},
+                     {"peak_memory_bytes", peakMemoryBytes()}};
+  return json.dump(2);
+}
+
+std::string resultLine(const Statistics& s) {
+  const Json json = {{"import_s", s.importSeconds},
+                     {"load_s", s.loadSeconds + s.buildSeconds},
+                     {"render_s", s.render.seconds},
+                     {"spp_actual", s.render.samples}};
+  return "RESULT " + json.dump();
+}
+
+std::string doneLine(const Statistics& s, const std::vector<std::string>& files) {
+  const Json json = {{"phase", "done"},
+                     {"end", endText(s.render.end)},
+                     {"elapsed", s.render.seconds},
+                     {"samples", s.render.samples},
+                     {"files", files}};
+  // File names are bytes; those that are not UTF-8 must not stop the program.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace vestige::app

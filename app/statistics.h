@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a render took, as JSON for programs and as one line for peers' harnesses.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "app/progress.h"
+#include "engine/render/session.h"
+
+namespace vestige::app {
+
+struct Statistics {
+  double importSeconds = 0;  ///< loading plugin libraries
+  double loadSeconds = 0;    ///< reading the text
+  double buildSeconds = 0;   ///< files, textures, acceleration structure
+  RenderResult render{};
+  std::size_t textureBytes = 0, triangles = 0;
+  int width = 0, height = 0;  ///< pixels that were rendered
+  std::uint32_t seed = 0;
+};
+
+/// "finished", "time is up", "interrupted".
+const char* endText(RenderEnd end);
+
+/// The object of --stats.
+std::string statisticsJson(const Statistics& s);
+/// `RESULT {"import_s": .., "load_s": .., "render_s": .., "spp_actual": ..}`.
+std::string resultLine(const Statistics& s);
+/// The last line of --progress json.
+std::string doneLine(const Statistics& s, const std::vector<std::string>& files);
+
+}  // namespace vestige::app

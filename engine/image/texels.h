@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures as they lie in memory, private to engine/image: as small as the file's own numbers, with
+// a table that decodes them.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <vestige/math.h>
+
+namespace vestige {
+
+using DecodeTable = std::vector<float>;  ///< by code value: 256 or 65536 entries
+
+/// Code: uint8_t or uint16_t (an integer or the bits of a half) with tables, or float without.
+template <class Code>
+struct TexelArray {
+  std::vector<Code> codes;  ///< [height][width][channels], row 0 at the top
+  std::shared_ptr<const DecodeTable> colour, alpha;
+};
+
+/// Channels: 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha. Decoded, they are linear, in
+/// rendering space, finite and not premultiplied.
+struct Texels {
+  int width = 0, height = 0, channels = 0;
+  std::variant<TexelArray<std::uint8_t>, TexelArray<std::uint16_t>, TexelArray<float>> data;
+  Rgba mean;
+  std::size_t bytes = 0;
+  std::size_t nonFinite = 0;  ///< texels' channels that were NaN or infinite and are 0 now
+
+  bool hasAlpha() const noexcept { return channels == 2 || channels == 4; }
+};
+
+/// Reads a picture: `colourSpace` "" goes by the file's metadata, "raw" or "linear" takes numbers
+/// as they are, "srgb" decodes sRGB's curve, any other names a space of the colour config. Null
+/// with `error`.
+std::shared_ptr<const Texels> loadTexels(const std::string& file, const std::string& colourSpace,
+                                         std::string& error);
+
+}  // namespace vestige

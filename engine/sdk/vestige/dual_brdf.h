@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A BRDF that writes its sampling routine and log f once and has both derivatives for nothing.
+//
+//     class Velvet final : public DualBrdf<Velvet> {
+//      public:
+//       template <class T>   // the direction of one lobe, for numbers that do not end the path
+//       TVec3<T> direction(const ScatterPoint& p, const TVec3<T>& toPrev, Real lobe,
+//                          const TVec2<T>& u) const noexcept;
+//       template <class T>   // log of the luminance of f; asked only where f > 0
+//       T logValue(const ScatterPoint& p, const TVec3<T>& toPrev,
+//                  const TVec3<T>& toNext) const noexcept;
+//       ...                  // and eval(), sample(), pdf() as in brdf.h; sample() may call
+//       direction()
+//     };
+#pragma once
+#include <vestige/brdf.h>
+#include <vestige/dual.h>
+
+namespace vestige {
+
+template <class Derived>
+class DualBrdf : public Brdf {
+ public:
+  ScatterJacobian sampleDerivatives(const ScatterPoint& p,
+                                    ScatterNumbers n) const noexcept override {
+    const Frame f = Frame::around(p.toPrev);
+    const TVec3<Dual> toPrev = moving(p.toPrev, f.s, f.t, 0);
+    const TVec2<Dual> u{Dual::variable(n.u.x, 2), Dual::variable(n.u.y, 3)};
+    const TVec3<Dual> d = self().direction(p, toPrev, n.lobe, u);
+    return {.du = {derivative(d, 2), derivative(d, 3)},
+            .dPrev = outer(derivative(d, 0), f.s) + outer(derivative(d, 1), f.t)};
+  }
+
+  LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    if (isBlack(eval(p, toNext))) return {};
+    const Frame a = Frame::around(p.toPrev), b = Frame::around(toNext);
+    const Dual l = self().logValue(p, moving(p.toPrev, a.s, a.t, 0), moving(toNext, b.s, b.t, 2));
+    return {l.d[0] * a.s + l.d[1] * a.t, l.d[2] * b.s + l.d[3] * b.t};
+  }
+
+ private:
+  const Derived& self() const noexcept { return static_cast<const Derived&>(*this); }
+};
+
+}  // namespace vestige

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A shining surface as a light, whatever draws the points: its points are uniform by area in some
+// space of their own, its radiance does not depend on the direction.
+//
+// [MATH] docs/mathematics.md: 1.11 next-event estimation, 1.12 emission, 1.14 gradients.
+#pragma once
+#include <functional>
+
+#include <vestige/light.h>
+
+namespace vestige {
+
+class SurfaceLight : public Light {
+ public:
+  using Radiance = std::function<Rgb(const SurfacePoint&)>;
+  SurfaceLight(Radiance radiance, bool twoSided, Rgb meanRadiance)
+      : radiance_(std::move(radiance)), mean_(meanRadiance), twoSided_(twoSided) {}
+
+  bool isDelta() const noexcept override { return false; }
+  std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override;
+  Real pdf(const LightHit& hit) const noexcept override;
+  Rgb eval(const LightHit& hit) const noexcept override;
+  LightJacobian sampleDerivatives(Vec3 from, Vec2 u) const noexcept override;
+  LightLogGradient logGradient(Vec3 from, Vec2 u) const noexcept override;
+  std::optional<Particle> emit(EmissionNumbers u) const noexcept override;
+  RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept override;
+  Rgb power() const noexcept override;
+
+ protected:
+  /// A point by area, in world space; `pdf` per unit of world area. Nullopt: the light has no area.
+  virtual std::optional<AreaSample> draw(Vec2 u) const noexcept = 0;
+  /// Density of draw() at a point with this geometric normal, per unit of world area.
+  virtual Real areaPdf(Vec3 normal) const noexcept = 0;
+  /// World area.
+  virtual Real area() const noexcept = 0;
+
+  bool shinesTo(Vec3 normal, Vec3 toLight) const noexcept {
+    return twoSided_ || dot(normal, toLight) < 0;
+  }
+  /// A sample of this point as seen from somewhere; `pdf` by solid angle.
+  LightSample seen(Vec3 from, const SurfacePoint& p, Vec3 toLight, Real distance, Real pdf) const;
+
+ private:
+  /// The side a particle leaves by, and what is left of the number that chose it.
+  struct Side {
+    Real sign;
+    Vec2 u;
+    Real stretch;  ///< d(u.x) by d(number)
+  };
+  Side side(Vec2 u) const noexcept;
+
+  Radiance radiance_;
+  Rgb mean_;
+  bool twoSided_;
+};
+
+}  // namespace vestige

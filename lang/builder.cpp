@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/builder.h"
+
+#include "lang/vocabulary.h"
+
+namespace vestige::lang {
+namespace {
+
+void moveBlock(Block& block, const Affine& t);
+
+/// Settings are shared between the copies of a declared block, so a moved one is a new one.
+void moveSettings(Block& block, const Affine& t) {
+  for (Setting& s : block.settings) {
+    if (!s.value.block) continue;
+    auto moved = std::make_shared<Block>(*s.value.block);
+    moveBlock(*moved, t);
+    s.value.block = std::move(moved);
+  }
+}
+
+void moveBlock(Block& block, const Affine& t) {
+  block.world = t * block.world;
+  for (Block& child : block.children) moveBlock(child, t);
+  moveSettings(block, t);
+}
+
+/// Blocks in a block, itself included; `depth` becomes the longest way down.
+std::int64_t measure(const Block& block, int level, int& depth) {
+  depth = std::max(depth, level);
+  std::int64_t n = 1;
+  for (const Block& child : block.children) n += measure(child, level + 1, depth);
+  for (const Setting& s : block.settings)
+    if (s.value.block) n += measure(*s.value.block, level + 1, depth);
+  return n;
+}
+
+}  // namespace
+
+void countBlocks(Context& context, const Block& block, const Span& span) {
+  int depth = 0;
+  context.blocks += measure(block, 1, depth);
+  if (context.blocks > context.options.limits.blocks)
+    context.reporter.stop(span, "this scene has more than " +
+                                    std::to_string(context.options.limits.blocks) +
+                                    " blocks: --max-blocks raises the limit");
+  if (depth + context.nesting > context.options.limits.nesting)
+    context.reporter.stop(span, "blocks are nested more than " +
+                                    std::to_string(context.options.limits.nesting) +
+                                    " deep: --max-nesting raises the limit");
+}
+
+BlockBuilder::BlockBuilder(Context& context, const Schema& schema, const Span& head)
+    : context_(context), schema_(schema) {
+  block_.kind = schema.kind;
+  block_.plugin = schema.name;
+  block_.span = head;
+  for (const auto* rows : {&schema.params, &schema.inputs})
+    for (const Parameter& p : *rows)
+      if (p.positional) places_.push_back(&p);
+}
+
+std::string BlockBuilder::title() const {
+  if (schema_.kind == "shape") return schema_.name;
+  return schema_.kind + (schema_.name.empty() ? "" : " " + schema_.name);
+}
+
+void BlockBuilder::inherit(const Block& base) {
+  countBlocks(context_, base, block_.span);
+  block_.settings = base.settings;
+  block_.children = base.children;
+  block_.own = base.own;
+  block_.world = base.world;
+}
+
+const Parameter* BlockBuilder::nextPositional() const {
+  return positionals_ < places_.size() ? places_[positionals_] : nullptr;
+}
+
+bool BlockBuilder::mayContain(const std::string& kind) const {
+  const auto& kinds = schema_.children;
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
+void BlockBuilder::set(const Parameter& row, const Span& nameSpan, const Datum& datum,
+                       const Span& span) {
+  auto value = convert(context_, row, datum, span);
+  if (!value) value = Value{};  // given, though not well: not missing
+  value->span = span;
+  store(row, nameSpan, std::move(*value));
+}
+
+void BlockBuilder::setWord(const Parameter& row, const Span& nameSpan, const std::string& word,
+                           const Span& span) {
+  set(row, nameSpan, textDatum(word), span);
+}
+
+void BlockBuilder::setBlock(const Parameter& row, const Span& nameSpan, Block block) {
+  Value value;
+  value.kind = Value::Kind::block;
+  value.span = block.span;
+  value.block = std::make_shared<const Block>(std::move(block));
+  store(row, nameSpan, std::move(value));
+}
+
+void BlockBuilder::store(const Parameter& row, const Span& nameSpan, Value value) {
+  for (std::size_t i = positionals_; i < places_.size(); ++i)
+    if (places_[i] == &row && row.positional && nameSpan.begin == value.span.begin) {
+      positionals_ = i + 1;
+      break;
+    }
+  auto& settings = block_.settings;
+  const auto before = std::find_if(settings.begin(), settings.end(),
+                                   [&](const Setting& s) { return s.name == row.name; });
+  if (before != settings.end()) {
+    if (std::find(given_.begin(), given_.end(), &row) != given_.end())
+      context_.reporter.warning(nameSpan, "'" + row.name + "' is given twice; this one counts")
+          .notes.push_back({before->span, "given here before"});
+    settings.erase(before);
+  }
+  given_.push_back(&row);
+  settings.push_back({row.name, std::move(value), nameSpan});
+}
+
+void BlockBuilder::add(Block child) {
+  int depth = 0;
+  measure(child, 1, depth);
+  if (depth >= context_.options.limits.nesting) countBlocks(context_, child, child.span);
+  block_.children.push_back(std::move(child));
+}
+
+void BlockBuilder::move(const Affine& transform) {
+  block_.own = transform * block_.own;
+  moveBlock(block_, transform);
+}
+
+Block BlockBuilder::finish() {
+  for (const auto* rows : {&schema_.params, &schema_.inputs})
+    for (const Parameter& p : *rows)
+      if (p.required && !block_.find(p.name) && !isForgiving_)
+        context_.reporter.error(block_.span, title() + " needs '" + p.name + "'" +
+                                                 (p.help.empty() ? "" : ": " + p.help) +
+                                                 (p.unit.empty() ? "" : " (" + p.unit + ")"));
+  return std::move(block_);
+}
+
+}  // namespace vestige::lang

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all parts of the reader share.
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <functional>
+
+#include "lang/lang.h"
+#include "lang/lexer.h"
+#include "lang/report.h"
+#include "lang/source.h"
+#include "lang/symbols.h"
+
+namespace vestige::lang {
+
+struct Context {
+  Context(const Options& o, std::span<const Schema> s, Sources& t, Diagnostics& d)
+      : options(o), schemas(s), sources(t), reporter(d, o.limits.errors) {}
+
+  const Options& options;
+  std::span<const Schema> schemas;
+  Sources& sources;
+  Names names;
+  Reporter reporter;
+  Symbols symbols;
+  double version = 3.7;                ///< #version only sets what `version` answers
+  std::vector<std::uint32_t> streams;  ///< states of rand(), by what seed() returned
+  int nesting = 0;                     ///< of braces, parentheses, calls: bounds our own stack
+  std::int64_t blocks = 0;             ///< made so far, copies included
+  double elements = 0;                 ///< of all arrays so far
+  std::int64_t steps = 0;              ///< tokens read and functions evaluated
+  std::function<bool(const std::string&)> fileExists;
+
+  /// Counts work, so that no text runs for ever.
+  void step(const Span& span) {
+    if (++steps > options.limits.expandedTokens)
+      reporter.stop(span, "this scene takes more than " +
+                              std::to_string(options.limits.expandedTokens) +
+                              " steps to read: is a loop or a macro endless? --max-tokens raises "
+                              "the limit");
+  }
+};
+
+/// One level deeper for as long as it lives.
+class Nested {
+ public:
+  Nested(Context& c, const Span& span) : context_(c) {
+    if (c.nesting >= c.options.limits.nesting)
+      c.reporter.stop(span, "nested more than " + std::to_string(c.options.limits.nesting) +
+                                " deep: --max-nesting raises the limit");
+    ++c.nesting;
+  }
+  ~Nested() { --context_.nesting; }
+  Nested(const Nested&) = delete;
+  Nested& operator=(const Nested&) = delete;
+
+ private:
+  Context& context_;
+};
+
+}  // namespace vestige::lang

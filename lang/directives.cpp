@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names, macros and texts; loops and choices are in control.cpp.
+#include "lang/directives.h"
+
+#include <iostream>
+#include <map>
+
+namespace vestige::lang {
+
+Directives::Handler Directives::handlerOf(const std::string& word) {
+  static const std::map<std::string, Handler> all = {
+      {"declare", &Directives::declare},   {"local", &Directives::declare},
+      {"undef", &Directives::undefine},    {"if", &Directives::ifBranch},
+      {"ifdef", &Directives::ifBranch},    {"ifndef", &Directives::ifBranch},
+      {"while", &Directives::whileLoop},   {"for", &Directives::forLoop},
+      {"switch", &Directives::choice},     {"else", &Directives::nextPart},
+      {"elseif", &Directives::nextPart},   {"case", &Directives::nextPart},
+      {"range", &Directives::nextPart},    {"end", &Directives::end},
+      {"break", &Directives::leave},       {"macro", &Directives::macro},
+      {"include", &Directives::include},   {"debug", &Directives::message},
+      {"render", &Directives::message},    {"statistics", &Directives::message},
+      {"warning", &Directives::message},   {"error", &Directives::message},
+      {"version", &Directives::version}};
+  const auto found = all.find(word);
+  return found == all.end() ? nullptr : found->second;
+}
+
+void Directives::obey(const Token& directive) {
+  const Nested nested(context_, directive.span);
+  const auto handler = handlerOf(*directive.text);
+  try {
+    if (handler) {
+      (this->*handler)(directive);
+      return;
+    }
+    static const std::vector<std::string> known = {
+        "declare", "local", "undef", "if", "ifdef", "ifndef", "while", "for", "switch", "else",
+        "elseif", "case", "range", "end", "break", "macro", "include", "debug", "warning", "error",
+        "version"};
+    const char* instead = insteadOf("#" + *directive.text);
+    context_.reporter.syntaxError(directive.span, "no directive is called '#" + *directive.text +
+                                                      "'" +
+                                                      (instead ? std::string(": ") + instead
+                                                               : didYouMean(*directive.text, known)));
+  } catch (const SyntaxError&) {
+    skipStatement();
+  }
+}
+
+/// After a mistake: to the ';' that ends it, to the next directive or to the next line.
+void Directives::skipStatement() {
+  const Span from = stream_.last();
+  int depth = 0;
+  for (;;) {
+    const Token t = stream_.peekRaw();
+    if (t.kind == Token::Kind::end || t.kind == Token::Kind::directive) return;
+    if (t.span.via != from.via || t.span.file != from.file) return;
+    const bool isNewLine = context_.sources.lineOf(t.span.file, t.span.begin) >
+                           context_.sources.lineOf(from.file, from.begin);
+    if (depth == 0 && (isNewLine || t.is("}"))) return;
+    if (t.is("{")) ++depth;
+    if (t.is("}")) --depth;
+    stream_.nextRaw();
+    if (depth == 0 && t.is(";")) return;
+  }
+}
+
+// ---------------------------------------------------------------- names
+Token Directives::plainName(const std::string& before) {
+  const Token name = stream_.nextRaw();
+  if (name.kind == Token::Kind::name) return name;
+  context_.reporter.syntaxError(name.span, "expected a name after " + before + ", found " +
+                                               describe(name, context_.sources));
+}
+
+/// A name that may be given a meaning.
+Token Directives::newName(const Token& directive) {
+  const Token name = plainName("#" + *directive.text);
+  const std::string& word = *name.text;
+  if (const char* instead = insteadOf(word))
+    context_.reporter.syntaxError(name.span, "'" + word + "' is a word of POV-Ray's: " + instead);
+  const bool isTaken = isExpressionWord(word) || isTransformWord(word) ||
+                       parser_.words().opensBlock(word);
+  // Parameters of macros may be called like u and v, and then be assigned to.
+  if (isTaken && !context_.symbols.find(name.text) && word != "clock")
+    context_.reporter.syntaxError(name.span, "'" + word + "' is a word of the language and cannot "
+                                                          "be declared; a name with a capital "
+                                                          "letter never is");
+  return name;
+}
+
+// ('#declare' | '#local') name { '[' sum ']' } '=' value [';']
+void Directives::declare(const Token& directive) {
+  const Token name = newName(directive);
+  if (stream_.peekRaw().is("[")) return assignElement(directive, name);
+  if (!stream_.acceptRaw("=")) {
+    const Token found = stream_.peekRaw();
+    context_.reporter.syntaxError(found.span, "expected '=' after '#" + *directive.text + " " +
+                                                  *name.text + "', found " +
+                                                  describe(found, context_.sources));
+  }
+  const bool isLocal = *directive.text == "local";
+  const auto assign = [&](Datum value) {
+    const Cell cell =
+        isLocal ? context_.symbols.local(name.text) : context_.symbols.declare(name.text);
+    *cell = {std::move(value), name.span};
+  };
+  try {
+    Datum value = parser_.value(ExpressionParser::Place::declaration).value;
+    const Datum copy = value;
+    assign(std::move(value));
+    needSemicolon(copy, *name.text);
+  } catch (const SyntaxError&) {
+    assign({});  // known, but broken: no second complaint where it is used
+    throw;
+  }
+}
+
+/// POV-Ray asks for ';' after numbers, vectors and colours only.
+void Directives::needSemicolon(const Datum& value, const std::string& name) {
+  if (stream_.acceptRaw(";") || !std::holds_alternative<Numbers>(value)) return;
+  context_.reporter.error(stream_.behindLast(), "expected ';' after the value of '" + name + "'");
+}
+
+void Directives::assignElement(const Token& directive, const Token& name) {
+  const Cell cell = context_.symbols.find(name.text);
+  std::vector<double> indices;
+  std::vector<Span> spans;
+  while (stream_.peekRaw().is("[")) {
+    const Span open = stream_.nextRaw().span;
+    const auto index = parser_.expressions().evaluate(ExpressionParser::Place::setting);
+    const Numbers* n = numbers(index.value);
+    if (!n || n->size != 1) {
+      if (!isBroken(index.value))
+        context_.reporter.error(index.span, "an index is a number, found " + describe(index.value));
+      throw SyntaxError{};
+    }
+    indices.push_back(n->v[0]);
+    spans.push_back(index.span);
+    parser_.expressions().expect("]", open, "[");
+  }
+  if (!stream_.acceptRaw("=")) {
+    const Token found = stream_.peekRaw();
+    context_.reporter.syntaxError(found.span, "expected '=' in '#" + *directive.text +
+                                                  "', found " + describe(found, context_.sources));
+  }
+  Datum value = parser_.value(ExpressionParser::Place::declaration).value;
+  needSemicolon(value, *name.text);
+  if (cell && isBroken(cell->value)) return;
+  const auto* array = cell ? std::get_if<ArrayPtr>(&cell->value) : nullptr;
+  if (!array) {
+    context_.reporter.error(name.span, "'" + *name.text + "' is not an array: write '#declare " +
+                                           *name.text + " = array[10];' first");
+    return;
+  }
+  const auto at = elementAt(context_, **array, indices, spans);
+  if (!at) return;
+  // Arrays are values: what shares this one keeps the old element. Nobody else: no copy.
+  if (array->use_count() > 1) cell->value = std::make_shared<const Array>(**array);
+  const_cast<Array&>(*std::get<ArrayPtr>(cell->value)).data[*at] = std::move(value);
+}
+
+// '#undef' name
+void Directives::undefine(const Token& directive) {
+  const Token name = plainName("#" + *directive.text);
+  if (!context_.symbols.undefine(name.text))
+    context_.reporter.warning(name.span, "'" + *name.text + "' has no value to forget" +
+                                             didYouMean(*name.text, context_.symbols.names()));
+  stream_.acceptRaw(";");
+}
+
+// ---------------------------------------------------------------- macros
+// '#macro' name '(' [ parameter { ',' parameter } ] ')' body '#end'
+void Directives::macro(const Token& directive) {
+  const std::uint32_t first = here();
+  jumpBehind(endOf(first));  // a mistake in the head must not let the body run
+  const std::uint32_t behind = stream_.frame().at;
+  stream_.frame().at = first + 1;
+  auto m = std::make_shared<Macro>();
+  try {
+    const Token name = newName(directive);
+    m->name = name.text;
+    m->declared = name.span;
+    m->list = stream_.frame().list;
+    macroParameters(*m);
+    m->begin = stream_.frame().at;
+    m->end = endOf(first);
+    *context_.symbols.declare(name.text) = {MacroPtr(m), name.span};
+    stream_.frame().at = behind;
+  } catch (const SyntaxError&) {
+    stream_.frame().at = behind;
+  }
+}
+
+// parameter := ['optional'] name ['=' sum]
+void Directives::macroParameters(Macro& m) {
+  const Span open = stream_.peekRaw().span;
+  if (!stream_.acceptRaw("("))
+    context_.reporter.syntaxError(open, "expected '(' and the parameters after '#macro " + *m.name +
+                                            "'");
+  while (!stream_.peekRaw().is(")")) {
+    const bool isOptional = stream_.peekRaw().isWord("optional") &&
+                            stream_.peekRaw(1).kind == Token::Kind::name;
+    if (isOptional) stream_.nextRaw();
+    Macro::Parameter p{plainName("'(' or ','").text, isOptional};
+    if (stream_.acceptRaw("=")) {
+      p.isOptional = true;
+      p.initial = parser_.value(ExpressionParser::Place::setting).value;
+    }
+    m.parameters.push_back(std::move(p));
+    if (!stream_.acceptRaw(",")) break;
+  }
+  if (!stream_.acceptRaw(")")) {
+    const Token found = stream_.peekRaw();
+    context_.reporter.syntaxError(found.span, "expected ',' or ')' in the parameters of macro '" +
+                                                  *m.name + "', found " +
+                                                  describe(found, context_.sources));
+  }
+}
+
+// call := name '(' [ argument { ',' argument } ] ')'
+bool Directives::expand(const Token& name) {
+  const Cell cell = context_.symbols.find(name.text);
+  const auto* found = cell ? std::get_if<MacroPtr>(&cell->value) : nullptr;
+  if (!found) return false;
+  const MacroPtr m = *found;
+  const Nested nested(context_, name.span);
+  checkMacroDepth(name);
+  if (!stream_.peekRaw().is("("))
+    context_.reporter.syntaxError(name.span, "'" + *name.text + "' is a macro: its arguments "
+                                                 "follow in parentheses, as in " +
+                                                 *name.text + "(...)");
+  const Span open = stream_.nextRaw().span;
+  std::vector<Cell> cells;
+  while (!stream_.peek().is(")")) {
+    cells.push_back(argument(*name.text));
+    if (!stream_.accept(",")) break;
+  }
+  parser_.expressions().expect(")", open, "(");
+  const Span call = context_.sources.join(name.span, stream_.last());
+  std::size_t least = 0;
+  for (const auto& p : m->parameters) least += p.isOptional ? 0 : 1;
+  if (cells.size() < least || cells.size() > m->parameters.size()) {
+    context_.reporter
+        .error(call, "the macro '" + *name.text + "' takes " +
+                         std::to_string(m->parameters.size()) +
+                         (m->parameters.size() == 1 ? " argument" : " arguments") + ", found " +
+                         std::to_string(cells.size()))
+        .notes.push_back({m->declared, "it is declared here"});
+    throw SyntaxError{};
+  }
+  Frame frame{Frame::Kind::macro, m->list, m->begin, m->end,
+              context_.sources.expand(Expansion::Kind::macro, *name.text, call), -1};
+  stream_.push(std::move(frame));
+  for (std::size_t i = 0; i < m->parameters.size(); ++i) {
+    const auto& p = m->parameters[i];
+    if (i < cells.size())
+      context_.symbols.top()[p.name] = cells[i];
+    else if (!isBroken(p.initial))
+      context_.symbols.top()[p.name] =
+          std::make_shared<Symbol>(Symbol{p.initial, m->declared});
+  }
+  return true;
+}
+
+// argument := name | value                  a bare name is handed over itself, not its value
+Cell Directives::argument(const std::string& macro) {
+  const Token t = stream_.peek();
+  const Token after = stream_.peekRaw(1);
+  if (t.kind == Token::Kind::name && (after.is(",") || after.is(")")))
+    if (Cell cell = context_.symbols.find(t.text)) {
+      stream_.next();
+      return cell;
+    }
+  const bool isStart = parser_.expressions().begins(t) || t.kind == Token::Kind::name;
+  if (!isStart) parser_.expressions().unexpected("an argument of the macro '" + macro + "' or ')'");
+  auto value = parser_.value(ExpressionParser::Place::setting);
+  return std::make_shared<Symbol>(Symbol{std::move(value.value), value.span});
+}
+
+void Directives::checkMacroDepth(const Token& name) {
+  int depth = 0;
+  for (const Frame& f : stream_.frames()) depth += f.kind == Frame::Kind::macro ? 1 : 0;
+  if (depth >= context_.options.limits.macroDepth)
+    context_.reporter.stop(name.span, "macros call each other more than " +
+                                          std::to_string(context_.options.limits.macroDepth) +
+                                          " deep: does '" + *name.text +
+                                          "' ever end? --max-macro-depth raises the limit");
+}
+
+// ---------------------------------------------------------------- texts
+/// The string behind a directive. Nothing behind it is looked at.
+std::optional<std::string> Directives::text(const Token& directive, Span& span) {
+  const auto result = parser_.expressions().operand();
+  span = result.span;
+  if (const auto* s = std::get_if<TextPtr>(&result.value)) return **s;
+  if (!isBroken(result.value))
+    context_.reporter.error(span, "#" + *directive.text + " takes a string, found " +
+                                      describe(result.value));
+  return {};
+}
+
+// '#include' string
+void Directives::include(const Token& directive) {
+  Span span;
+  const auto name = text(directive, span);
+  if (!name) return;
+  std::vector<std::string> tried;
+  const std::string path = includes_.find(*name, directive.span.file, tried);
+  if (path.empty()) return missingInclude(*name, span, tried);
+  if (!includes_.isAllowed(path)) {
+    context_.reporter.error(span, "'" + path + "' lies outside the scene's folder and the include "
+                                               "paths, which --sandbox forbids");
+    return;
+  }
+  const auto file = includes_.load(path);
+  if (!file) {
+    context_.reporter.error(span, "'" + path + "' cannot be read");
+    return;
+  }
+  if (refuseInclude(path, file->file, span)) return;
+  stream_.push({Frame::Kind::file, file->tokens, 0, std::uint32_t(file->tokens->tokens.size() - 1),
+                context_.sources.expand(Expansion::Kind::include, path, span), file->file});
+}
+
+void Directives::missingInclude(const std::string& name, const Span& span,
+                                const std::vector<std::string>& tried) {
+  Diagnostic& d = context_.reporter.error(span, "no file '" + name + "' to include");
+  std::string places;
+  for (const std::string& t : tried) places += (places.empty() ? "" : ", ") + t;
+  d.notes.push_back({{}, "looked for " + places + "; -I adds a folder"});
+}
+
+bool Directives::refuseInclude(const std::string& path, int file, const Span& span) {
+  int depth = 0;
+  for (const Frame& f : stream_.frames()) {
+    if (f.kind != Frame::Kind::file) continue;
+    if (f.file == file) {
+      context_.reporter.error(span, "'" + path + "' includes itself in the end");
+      return true;
+    }
+    ++depth;
+  }
+  if (depth > context_.options.limits.includeDepth)
+    context_.reporter.stop(span, "includes are nested more than " +
+                                     std::to_string(context_.options.limits.includeDepth) +
+                                     " deep: --max-include-depth raises the limit");
+  return false;
+}
+
+// ('#debug' | '#warning' | '#error') string
+void Directives::message(const Token& directive) {
+  Span span;
+  const auto shown = text(directive, span);
+  if (!shown) return;
+  std::string line = *shown;
+  if (*directive.text == "error" || *directive.text == "warning")
+    while (!line.empty() && line.back() == '\n') line.pop_back();
+  if (*directive.text == "error") context_.reporter.stop(directive.span, line);
+  if (*directive.text == "warning")
+    context_.reporter.warning(directive.span, line);
+  else if (context_.options.debug)
+    context_.options.debug(line);
+  else
+    std::cerr << line << std::flush;
+}
+
+// '#version' number [';']
+void Directives::version(const Token&) {
+  const auto result = parser_.expressions().operand();
+  if (const Numbers* n = numbers(result.value))
+    context_.version = n->v[0];
+  else if (!isBroken(result.value))
+    context_.reporter.error(result.span, "#version takes a number, found " + describe(result.value));
+  stream_.acceptRaw(";");
+}
+
+}  // namespace vestige::lang

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the words behind '#' do, and how macros are called.
+#pragma once
+#include "lang/include.h"
+#include "lang/parser.h"
+
+namespace vestige::lang {
+
+class Directives {
+ public:
+  Directives(Context& context, TokenStream& stream, Parser& parser, Includes& includes)
+      : context_(context), stream_(stream), parser_(parser), includes_(includes) {}
+
+  /// Obeys a directive that the stream has just taken. Goes on after a mistake in it.
+  void obey(const Token& directive);
+  /// If the name is a macro's: reads the arguments and makes the stream read the body.
+  bool expand(const Token& name);
+
+ private:
+  using Handler = void (Directives::*)(const Token&);
+  static Handler handlerOf(const std::string& word);
+
+  // Names.
+  void declare(const Token& directive);
+  void assignElement(const Token& directive, const Token& name);
+  void needSemicolon(const Datum& value, const std::string& name);
+  void undefine(const Token& directive);
+  Token newName(const Token& directive);
+  Token plainName(const std::string& before);
+
+  // Choices and loops, by index in the frame's list.
+  void ifBranch(const Token& directive);
+  void whileLoop(const Token& directive);
+  void forLoop(const Token& directive);
+  void choice(const Token& directive);
+  void nextPart(const Token& directive);
+  void end(const Token& directive);
+  void leave(const Token& directive);
+  bool holds(const std::string& word);
+  bool isDefined();
+  bool testWhile(std::uint32_t first);
+  bool isWithin(const OpenDirective& loop, const Span& span);
+  bool caseMatches(const std::string& word, double x);
+  void countLoop(const Span& span);
+  std::uint32_t here() { return stream_.frame().at - 1; }
+  std::uint32_t endOf(std::uint32_t part);
+  void jumpBehind(std::uint32_t index);
+
+  // Macros and texts.
+  void macro(const Token& directive);
+  void macroParameters(Macro& macro);
+  Cell argument(const std::string& macro);
+  void checkMacroDepth(const Token& name);
+  void include(const Token& directive);
+  void missingInclude(const std::string& name, const Span& span,
+                      const std::vector<std::string>& tried);
+  bool refuseInclude(const std::string& path, int file, const Span& span);
+  void message(const Token& directive);
+  void version(const Token& directive);
+  std::optional<std::string> text(const Token& directive, Span& span);
+
+  void skipStatement();
+
+  Context& context_;
+  TokenStream& stream_;
+  Parser& parser_;
+  Includes& includes_;
+  std::int64_t loops_ = 0;
+};
+
+}  // namespace vestige::lang

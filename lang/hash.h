@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <vestige/scene_desc.h>
+
+namespace vestige::lang {
+
+/// Of the meaning: the same for two texts that describe the same scene with the same words, however
+/// they are laid out. Stable between runs and machines.
+std::uint64_t hashOf(const SceneDesc& scene);
+
+}  // namespace vestige::lang

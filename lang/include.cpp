@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/include.h"
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+namespace vestige::lang {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+fs::path canonical(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? path : whole;
+}
+
+bool isBelow(const fs::path& path, const fs::path& folder) {
+  const auto [rest, unused] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return rest == folder.end() || (std::next(rest) == folder.end() && rest->empty());
+}
+
+}  // namespace
+
+std::optional<std::string> readFile(const std::string& path) {
+  std::error_code error;
+  if (!isFile(path) || fs::file_size(path, error) >= std::numeric_limits<std::uint32_t>::max())
+    return {};
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in || in.bad()) return {};
+  return text.str();
+}
+
+Includes::Includes(Context& context, const std::string& sceneFile)
+    : context_(context), sceneFolder_(fs::path(sceneFile).parent_path().string()) {}
+
+Includes::File Includes::add(const std::string& name, std::string text) {
+  const int file = context_.sources.add(name, std::move(text));
+  lists_.push_back(
+      tokenise(file, context_.sources, context_.names, context_.reporter.diagnostics()));
+  return {file, &lists_.back()};
+}
+
+std::optional<Includes::File> Includes::load(const std::string& path) {
+  if (const auto found = loaded_.find(path); found != loaded_.end()) return found->second;
+  auto text = readFile(path);
+  if (!text) return {};
+  return loaded_[path] = add(path, std::move(*text));
+}
+
+std::string Includes::find(const std::string& name, int askingFile,
+                           std::vector<std::string>& tried) const {
+  const fs::path wanted(name);
+  std::vector<fs::path> folders;
+  if (wanted.is_absolute()) {
+    folders.push_back("");
+  } else {
+    folders.push_back(fs::path(context_.sources.text(askingFile).name).parent_path());
+    folders.push_back("");
+    for (const std::string& p : context_.options.includePaths) folders.push_back(p);
+  }
+  for (const fs::path& folder : folders) {
+    const std::string path = (folder / wanted).lexically_normal().string();
+    if (isFile(path)) return path;
+    if (std::find(tried.begin(), tried.end(), path) == tried.end()) tried.push_back(path);
+  }
+  return {};
+}
+
+bool Includes::isAllowed(const std::string& path) const {
+  if (!context_.options.sandbox) return true;
+  const fs::path whole = canonical(path);
+  if (isBelow(whole, canonical(sceneFolder_.empty() ? "." : sceneFolder_))) return true;
+  for (const std::string& p : context_.options.includePaths)
+    if (isBelow(whole, canonical(p))) return true;
+  return false;
+}
+
+}  // namespace vestige::lang

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The front door: puts the parts together for one scene.
+#include "lang/lang.h"
+
+#include "lang/directives.h"
+#include "lang/hash.h"
+
+namespace vestige::lang {
+namespace {
+
+/// Everything that one run needs; references between the parts stay valid for its lifetime.
+class Reader {
+ public:
+  Reader(const std::string& name, std::span<const Schema> schemas, const Options& options,
+         Sources& sources, Result& result)
+      : context_(options, schemas, sources, result.diagnostics),
+        words_(schemas),
+        stream_(context_),
+        parser_(context_, stream_, words_),
+        includes_(context_, name),
+        directives_(context_, stream_, parser_, includes_),
+        result_(result) {
+    stream_.onDirective = [this](const Token& t) { directives_.obey(t); };
+    stream_.onName = [this](const Token& t) { return directives_.expand(t); };
+    context_.fileExists = [this](const std::string& file) {
+      std::vector<std::string> tried;
+      const std::string path = includes_.find(file, 0, tried);
+      return !path.empty() && includes_.isAllowed(path);
+    };
+  }
+
+  void read(const std::string& name, const std::string& text) {
+    try {
+      push(includes_.add(name, text));
+      const auto& definitions = context_.options.definitions;
+      for (auto d = definitions.rbegin(); d != definitions.rend(); ++d)
+        push(includes_.add("-D " + d->first, "#declare " + d->first + " = " + d->second + ";"));
+      parser_.scene(result_.scene);
+    } catch (const Stop&) {
+    }
+  }
+
+ private:
+  void push(const Includes::File& f) {
+    const auto end = std::uint32_t(f.tokens->tokens.size() - 1);
+    stream_.push({Frame::Kind::file, f.tokens, 0, end, -1, f.file});
+  }
+
+  Context context_;
+  Vocabulary words_;
+  TokenStream stream_;
+  Parser parser_;
+  Includes includes_;
+  Directives directives_;
+  Result& result_;
+};
+
+}  // namespace
+
+Result readSceneText(const std::string& name, const std::string& text,
+                     std::span<const Schema> schemas, const Options& options) {
+  Result result;
+  const auto sources = std::make_shared<Sources>();
+  Reader(name, schemas, options, *sources, result).read(name, text);
+  for (int i = 0; i < sources->size(); ++i) result.scene.files.push_back(sources->text(i).name);
+  result.scene.hash = hashOf(result.scene);
+  result.sources = sources;
+  return result;
+}
+
+Result readScene(const std::string& file, std::span<const Schema> schemas,
+                 const Options& options) {
+  const auto text = readFile(file);
+  if (text) return readSceneText(file, *text, schemas, options);
+  Result result;
+  result.diagnostics.error({}, "cannot read the scene '" + file + "': no such file, or not a text");
+  result.sources = std::make_shared<Sources>();
+  return result;
+}
+
+}  // namespace vestige::lang

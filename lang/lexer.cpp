@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/lexer.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+namespace vestige::lang {
+namespace {
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+}
+bool isWordPart(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
+
+/// Signs of two characters, before those of one.
+constexpr const char* kDoubleSigns[] = {"<=", ">=", "!=", "==", "&&", "||"};
+constexpr const char* kSigns = "(){}[]<>,;:?.+-*/%&|!=^";
+
+class Lexer {
+ public:
+  Lexer(int file, const Sources& sources, Names& names)
+      : file_(file), text_(sources.text(file).text), names_(names) {}
+
+  std::vector<Token> run() {
+    if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) at_ = 3;  // byte order mark of UTF-8
+    std::vector<Token> tokens;
+    do tokens.push_back(next());
+    while (tokens.back().kind != Token::Kind::end);
+    return tokens;
+  }
+
+ private:
+  char peek(std::size_t ahead = 0) const {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+  }
+  bool atEnd() const { return at_ >= text_.size(); }
+
+  Token token(Token::Kind kind, std::size_t begin, std::string text) {
+    Token t;
+    t.kind = kind;
+    t.span = {file_, std::uint32_t(begin), std::uint32_t(at_), -1};
+    t.text = names_.intern(std::move(text));
+    return t;
+  }
+  Token bad(std::size_t begin, std::string what) {
+    return token(Token::Kind::bad, begin, std::move(what));
+  }
+
+  /// Comments count as blanks; one that never closes is a token, so that it is complained about.
+  bool skipBlanks(std::size_t& openComment) {
+    for (;;) {
+      while (!atEnd() && isBlank(peek())) ++at_;
+      if (peek() != '/') return true;
+      if (peek(1) == '/') {
+        while (!atEnd() && peek() != '\n') ++at_;
+      } else if (peek(1) == '*') {
+        openComment = at_;
+        if (!skipComment()) return false;
+      } else {
+        return true;
+      }
+    }
+  }
+  bool skipComment() {
+    int depth = 0;
+    while (!atEnd()) {
+      if (peek() == '/' && peek(1) == '*') {
+        ++depth, at_ += 2;
+      } else if (peek() == '*' && peek(1) == '/') {
+        --depth, at_ += 2;
+        if (depth == 0) return true;
+      } else {
+        ++at_;
+      }
+    }
+    return false;
+  }
+
+  Token next() {
+    std::size_t begin = 0;
+    if (!skipBlanks(begin)) {
+      Token t = bad(begin, "this comment is never closed: '*/' is missing");
+      t.span.end = t.span.begin + 2;
+      return t;
+    }
+    begin = at_;
+    if (atEnd()) return token(Token::Kind::end, begin, "");
+    const char c = peek();
+    if (isLetter(c) || c == '_') return word(begin);
+    if (isDigit(c) || (c == '.' && isDigit(peek(1)))) return number(begin);
+    if (c == '"') return string(begin);
+    if (c == '#') return directive(begin);
+    return sign(begin);
+  }
+
+  Token word(std::size_t begin) {
+    while (isWordPart(peek())) ++at_;
+    return token(Token::Kind::name, begin, text_.substr(begin, at_ - begin));
+  }
+
+  Token number(std::size_t begin) {
+    while (isDigit(peek())) ++at_;
+    if (peek() == '.') ++at_;
+    while (isDigit(peek())) ++at_;
+    if (peek() == 'e' || peek() == 'E') {
+      const std::size_t sign = peek(1) == '+' || peek(1) == '-' ? 2 : 1;
+      if (isDigit(peek(sign))) {
+        at_ += sign;
+        while (isDigit(peek())) ++at_;
+      }
+    }
+    Token t = token(Token::Kind::number, begin, text_.substr(begin, at_ - begin));
+    // from_chars knows no locale; it takes neither a leading nor a trailing point amiss.
+    const auto end = text_.data() + at_;
+    const auto [stop, error] = std::from_chars(text_.data() + begin, end, t.number);
+    if (error == std::errc::result_out_of_range) t.number = isTiny(begin) ? 0 : HUGE_VAL;
+    if (std::isinf(t.number)) return bad(begin, "this number is too large");
+    return t;
+  }
+  bool isTiny(std::size_t begin) const {
+    return text_.substr(begin, at_ - begin).find("e-") != std::string::npos ||
+           text_.substr(begin, at_ - begin).find("E-") != std::string::npos || text_[begin] == '.' ||
+           text_[begin] == '0';
+  }
+
+  Token string(std::size_t begin) {
+    std::string value;
+    std::string wrong;
+    ++at_;
+    while (!atEnd() && peek() != '"' && peek() != '\n') {
+      if (peek() == '\\')
+        escape(value, wrong);
+      else
+        value += text_[at_++];
+    }
+    if (peek() != '"') return bad(begin, "this string is never closed: '\"' is missing");
+    ++at_;
+    if (!wrong.empty()) return bad(begin, wrong);
+    return token(Token::Kind::string, begin, std::move(value));
+  }
+
+  void escape(std::string& value, std::string& wrong) {
+    static const std::string letters = "abfnrtv\\'\"", values = "\a\b\f\n\r\t\v\\'\"";
+    const char c = peek(1);
+    if (const auto known = letters.find(c); c != '\0' && known != std::string::npos) {
+      value += values[known];
+      at_ += 2;
+    } else if (c == '0') {
+      value += '\0';
+      at_ += 2;
+    } else if (c == 'u') {
+      unicode(value, wrong);
+    } else {
+      wrong = "no escape in a string begins '\\" + std::string(1, c) +
+              "': known are \\a \\b \\f \\n \\r \\t \\v \\0 \\\\ \\' \\\" \\uNNNN "
+              "(write '/' between folders, also on Windows)";
+      at_ += 1;
+    }
+  }
+  void unicode(std::string& value, std::string& wrong) {
+    unsigned code = 0;
+    const char* from = text_.data() + at_ + 2;
+    const char* to = text_.data() + std::min(text_.size(), at_ + 6);
+    const auto [stop, error] = std::from_chars(from, to, code, 16);
+    at_ += 2;
+    if (stop != from + 4) {
+      wrong = "\\u in a string takes four hexadecimal digits";
+      return;
+    }
+    at_ += 4;
+    if (code < 0x80) {
+      value += char(code);
+    } else if (code < 0x800) {
+      value += char(0xC0 | (code >> 6));
+      value += char(0x80 | (code & 0x3F));
+    } else {
+      value += char(0xE0 | (code >> 12));
+      value += char(0x80 | ((code >> 6) & 0x3F));
+      value += char(0x80 | (code & 0x3F));
+    }
+  }
+
+  Token directive(std::size_t begin) {
+    ++at_;
+    while (peek() == ' ' || peek() == '\t') ++at_;
+    const std::size_t name = at_;
+    while (isWordPart(peek())) ++at_;
+    if (at_ == name) {
+      at_ = begin + 1;
+      return bad(begin, "'#' begins a directive such as #declare, but no word follows it");
+    }
+    return token(Token::Kind::directive, begin, text_.substr(name, at_ - name));
+  }
+
+  Token sign(std::size_t begin) {
+    for (const char* s : kDoubleSigns)
+      if (peek() == s[0] && peek(1) == s[1]) {
+        at_ += 2;
+        return token(Token::Kind::sign, begin, s);
+      }
+    const auto c = static_cast<unsigned char>(text_[at_++]);
+    if (c != 0 && std::string_view(kSigns).find(char(c)) != std::string_view::npos)
+      return token(Token::Kind::sign, begin, std::string(1, char(c)));
+    while (c >= 0x80 && (static_cast<unsigned char>(peek()) & 0xC0) == 0x80) ++at_;
+    const std::string shown = c < 32 || c == 127
+                                  ? "control character " + std::to_string(int(c))
+                                  : "character '" + text_.substr(begin, at_ - begin) + "'";
+    return bad(begin, shown + " means nothing here");
+  }
+
+  int file_;
+  const std::string& text_;
+  Names& names_;
+  std::size_t at_ = 0;
+};
+
+bool opens(const std::string& word) {
+  return word == "if" || word == "ifdef" || word == "ifndef" || word == "while" || word == "for" ||
+         word == "switch" || word == "macro";
+}
+bool continues(const std::string& word) {
+  return word == "else" || word == "elseif" || word == "case" || word == "range";
+}
+
+/// Links each construct's parts. Skipped text is paired too, as POV-Ray does.
+void pair(TokenList& list, Diagnostics& diagnostics) {
+  struct Open {
+    std::uint32_t first, last;
+  };
+  std::vector<Open> open;
+  auto& tokens = list.tokens;
+  const auto isSwitch = [&](const Open& o) { return *tokens[o.first].text == "switch"; };
+  for (std::uint32_t i = 0; i < tokens.size(); ++i) {
+    Token& t = tokens[i];
+    if (t.kind != Token::Kind::directive) continue;
+    t.jump = i;
+    if (opens(*t.text)) {
+      open.push_back({i, i});
+    } else if (*t.text == "end" || continues(*t.text)) {
+      const bool wantsSwitch = *t.text == "case" || *t.text == "range";
+      if (open.empty() || (wantsSwitch && !isSwitch(open.back()))) {
+        diagnostics.error(t.span, "#" + *t.text + " without " +
+                                      (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
+        list.balanced = false;
+        continue;
+      }
+      tokens[open.back().last].jump = i;
+      open.back().last = i;
+      if (*t.text != "end") continue;
+      t.jump = open.back().first;
+      open.pop_back();
+    }
+  }
+  for (const Open& o : open) {
+    tokens[o.last].jump = std::uint32_t(tokens.size() - 1);
+    diagnostics.error(tokens[o.first].span, "#" + *tokens[o.first].text + " has no #end");
+    list.balanced = false;
+  }
+}
+
+}  // namespace
+
+TokenList tokenise(int file, const Sources& sources, Names& names, Diagnostics& diagnostics) {
+  TokenList list;
+  list.tokens = Lexer(file, sources, names).run();
+  pair(list, diagnostics);
+  return list;
+}
+
+std::string describe(const Token& token, const Sources& sources) {
+  if (token.kind == Token::Kind::end) return "the end of the file";
+  if (token.kind == Token::Kind::directive) return "'#" + *token.text + "'";
+  std::string shown = sources.excerpt(token.span);
+  constexpr std::size_t kLongest = 40;
+  if (shown.size() > kLongest) shown = shown.substr(0, kLongest) + "...";
+  if (token.kind == Token::Kind::number) return "the number " + shown;
+  if (token.kind == Token::Kind::string) return "the string " + shown;
+  return "'" + shown + "'";
+}
+
+}  // namespace vestige::lang

@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes and blocks, by recursive descent. Read from top to bottom, the comments above the
+// functions are the grammar; expressions.cpp and declarations.cpp go on where this file ends.
+// Tokens arrive with macros expanded and directives obeyed (stream.h), so neither appears here.
+#include "lang/parser.h"
+
+namespace vestige::lang {
+
+// scene := { block }
+void Parser::scene(SceneDesc& scene) {
+  while (stream_.peek().kind != Token::Kind::end) {
+    const auto before = stream_.taken();
+    try {
+      statement(scene);
+    } catch (const SyntaxError&) {
+      if (stream_.taken() == before) stream_.nextRaw();
+      skipToStatement();
+    }
+  }
+}
+
+void Parser::statement(SceneDesc& scene) {
+  const Token t = stream_.peek();
+  if (t.kind == Token::Kind::name && words_.opensBlock(*t.text)) {
+    addToScene(scene, block());
+  } else if (stream_.accept(";")) {
+    return;  // harmless after a block
+  } else if (t.is("}") && assumedBraces_ > 0) {
+    stream_.next();
+    --assumedBraces_;
+  } else if (t.kind != Token::Kind::name) {
+    expressions_.unexpected("a camera, a light, a shape or a directive");
+  } else if (const BlockPtr declared = declaredBlock(t)) {
+    context_.reporter.syntaxError(t.span, "expected a block, found the name of one: write 'object { " +
+                                              *t.text + " }'");
+  } else if (const char* instead = insteadOf(*t.text)) {
+    context_.reporter.syntaxError(t.span, "'" + *t.text + "' is a word of POV-Ray's: " + instead);
+  } else {
+    std::vector<std::string> known = context_.symbols.names();
+    for (const std::string& w : words_.blockWords()) known.push_back(w);
+    context_.reporter.syntaxError(t.span, "expected a camera, a light, a shape or a directive, found '" +
+                                              *t.text + "'" + didYouMean(*t.text, known));
+  }
+}
+
+void Parser::addToScene(SceneDesc& scene, Block block) {
+  if (!words_.standsAlone(block.kind)) {
+    const bool isBrdf = block.kind == "brdf";
+    context_.reporter.error(block.span, "a " + block.kind + " cannot stand alone: write it inside a " +
+                                            (isBrdf ? "shape" : "block that uses it") +
+                                            ", or '#declare Name = " + block.kind + " ...'");
+    return;
+  }
+  const bool isSingle =
+      block.kind == "camera" || block.kind == "film" || block.kind == "integrator";
+  const auto before = std::find_if(scene.blocks.begin(), scene.blocks.end(),
+                                   [&](const Block& b) { return b.kind == block.kind; });
+  if (isSingle && before != scene.blocks.end()) {
+    context_.reporter.warning(block.span, "a second " + block.kind + ": this one counts")
+        .notes.push_back({before->span, "the first one"});
+    scene.blocks.erase(before);
+  }
+  scene.blocks.push_back(std::move(block));
+}
+
+// ---------------------------------------------------------------- blocks
+// block := kind [plugin] '{' [plugin | name] item* '}'
+//        | shape '{' item* '}'                          a shape's plugin is a keyword of its own
+//        | 'object' '{' (name | block) item* '}'
+Block Parser::block() {
+  const Token word = stream_.next();
+  const Nested nested(context_, word.span);
+  countBlocks(context_, Block{}, word.span);
+  if (word.isWord("object")) return objectBlock();
+  const bool isShape = words_.isShape(*word.text) && !words_.isKind(*word.text);
+  Head start{isShape ? words_.find("shape", *word.text) : nullptr, word.span};
+  return finishBlock(head(isShape ? "shape" : *word.text, start), Braces::needed);
+}
+
+Block Parser::objectBlock() {
+  Head start{nullptr, stream_.last()};
+  if (!stream_.accept("{")) expressions_.unexpected("'{' after 'object'");
+  start.isOpen = true, start.brace = stream_.last();
+  const Token t = stream_.peek();
+  if (t.kind == Token::Kind::name && words_.opensBlock(*t.text)) {
+    start.base = std::make_shared<const Block>(block());
+  } else if ((start.base = declaredBlock(t))) {
+    stream_.next();
+    start.span = context_.sources.join(start.span, t.span);
+  } else if (t.kind == Token::Kind::name && !context_.symbols.find(t.text)) {
+    expressions_.undeclared(t, "object");
+    throw SyntaxError{};
+  } else {
+    expressions_.unexpected("the name of a declared shape or union");
+  }
+  if (!words_.standsAlone(start.base->kind))
+    context_.reporter.syntaxError(t.span, "'object' takes a shape or a union, found " +
+                                              describe(Datum(start.base)) + ": write '" +
+                                              start.base->kind + " { " + *t.text + " }'");
+  start.schema = words_.find(start.base->kind, start.base->plugin);
+  return finishBlock(std::move(start), Braces::needed);
+}
+
+Block Parser::finishBlock(Head head, Braces braces) {
+  BlockBuilder b(context_, *head.schema, head.span);
+  if (head.base) b.inherit(*head.base);
+  if (!head.isOpen && stream_.peek().is("{")) {
+    head.isOpen = true;
+    head.brace = stream_.next().span;
+  }
+  if (head.isOpen)
+    items(b, head.brace);
+  else if (braces == Braces::needed)
+    expressions_.unexpected("'{' after '" + b.title() + "'");
+  return b.finish();
+}
+
+// [plugin] before '{', or as the first word behind it; a declared name stands for its plugin.
+Parser::Head Parser::head(const std::string& kind, Head head) {
+  if (!head.schema) head.schema = words_.find(kind, "");
+  if (!head.schema && !headName(kind, head) && !stream_.peek().is("{"))
+    unknownPlugin(kind, stream_.peek());
+  if (head.base || !stream_.accept("{")) return head;
+  head.isOpen = true, head.brace = stream_.last();
+  headName(kind, head);
+  if (!head.schema) unknownPlugin(kind, stream_.peek());
+  return head;
+}
+
+/// Takes the plugin's word, or the name of a declared block of that kind.
+bool Parser::headName(const std::string& kind, Head& head) {
+  const Token t = stream_.peek();
+  if (t.kind != Token::Kind::name) return false;
+  const Schema* named = words_.find(kind, *t.text);
+  const BlockPtr declared = named ? nullptr : declaredBlock(t);
+  if (!named && !(declared && declared->kind == kind)) return false;
+  if (head.schema && (named || head.schema->name != declared->plugin)) {
+    if (named || head.schema->children.size() > 0) return false;  // an item: decided there
+    context_.reporter.syntaxError(t.span, "'" + *t.text + "' is a " + declared->kind + " " +
+                                              declared->plugin + ", not a " + head.schema->kind +
+                                              " " + head.schema->name);
+  }
+  stream_.next();
+  head.base = declared;
+  head.schema = named ? named : words_.find(kind, declared->plugin);
+  head.span = context_.sources.join(head.span, t.span);
+  return true;
+}
+
+void Parser::unknownPlugin(const std::string& kind, const Token& found) {
+  std::vector<std::string> known = words_.plugins(kind);
+  std::sort(known.begin(), known.end());
+  std::string list = "one of " + orList(known);
+  if (found.kind != Token::Kind::name) expressions_.unexpected("which " + kind + ": " + list);
+  const std::vector<std::string> plugins = known;
+  for (const std::string& name : context_.symbols.names()) known.push_back(name);
+  const std::string near = didYouMean(*found.text, known);
+  if (const Cell cell = context_.symbols.find(found.text)) {
+    if (isBroken(cell->value)) throw SyntaxError{};  // complained about where it was declared
+    context_.reporter.syntaxError(found.span, "expected a " + kind + ", found " +
+                                                  describe(cell->value) + ", which '" +
+                                                  *found.text + "' stands for");
+  }
+  context_.reporter.syntaxError(
+      found.span, "no " + kind + " is called '" + *found.text + "'" +
+                      (near.empty() ? ": expected " + list + ", or a declared one" : near));
+}
+
+// ---------------------------------------------------------------- items
+// items := { item [','] } '}'
+void Parser::items(BlockBuilder& b, const Span& brace) {
+  bool afterComma = false;
+  for (;;) {
+    const Token t = stream_.peek();
+    if (stream_.accept("}")) return;
+    if (t.kind == Token::Kind::end) {
+      b.forgiveMissing();
+      ++assumedBraces_;
+      try {
+        expressions_.expect("}", brace, "{");
+      } catch (const SyntaxError&) {
+      }
+      return;
+    }
+    if (stream_.accept(",")) {
+      afterComma = true;
+      continue;
+    }
+    const auto before = stream_.taken();
+    try {
+      if (item(b, std::exchange(afterComma, false)) == Next::closed) return;
+    } catch (const SyntaxError&) {
+      b.forgiveMissing();
+      if (stream_.taken() == before && !stream_.peekRaw().is("}")) stream_.nextRaw();
+      skipToItem(b);
+    }
+  }
+}
+
+// item := value | parameter value | transform | block | name
+Parser::Next Parser::item(BlockBuilder& b, bool afterComma) {
+  const Token t = stream_.peek();
+  if (isValue(b, t, afterComma)) {
+    positional(b);
+  } else if (t.kind != Token::Kind::name) {
+    expressions_.unexpected("'}' or a parameter of '" + b.title() + "'");
+  } else if (const Parameter* row = b.row(*t.text)) {
+    setting(b, *row);
+  } else if (isTransformWord(*t.text)) {
+    if (!isMovable(b.schema().kind))
+      context_.reporter.syntaxError(t.span, "'" + b.title() + "' has no place in space, so '" +
+                                                *t.text + "' cannot stand in it");
+    b.move(transform());
+  } else if (words_.opensBlock(*t.text)) {
+    return nested(b, t);
+  } else if (const BlockPtr declared = declaredBlock(t)) {
+    declaredItem(b, t, *declared);
+  } else {
+    unknownItem(b, t);
+  }
+  return Next::more;
+}
+
+/// Does a value without a name begin here? A parameter's name goes before a declared one of the
+/// same spelling, unless a comma has announced a value.
+bool Parser::isValue(const BlockBuilder& b, const Token& t, bool afterComma) const {
+  const Parameter* next = b.nextPositional();
+  if (t.kind != Token::Kind::name) return expressions_.begins(t);
+  if (next && next->type == ValueType::choice)
+    for (const std::string& word : next->choices)
+      if (word == *t.text) return true;
+  if (b.row(*t.text) && !(afterComma && next)) return false;
+  if (isTransformWord(*t.text) || words_.opensBlock(*t.text)) return false;
+  const Cell cell = context_.symbols.find(t.text);
+  if (cell && std::holds_alternative<Affine>(cell->value)) return false;
+  return expressions_.begins(t) && !declaredBlock(t);
+}
+
+// value := expression                              in the order of the schema's positional rows
+void Parser::positional(BlockBuilder& b) {
+  const Parameter* row = b.nextPositional();
+  const Token t = stream_.peek();
+  if (row && row->type == ValueType::choice && choiceSetting(b, *row, t.span)) return;
+  const auto result = expressions_.evaluate(ExpressionParser::Place::setting);
+  if (row) {
+    b.set(*row, result.span, result.value, result.span);
+    return;
+  }
+  std::vector<std::string> names;
+  for (const auto* rows : {&b.schema().params, &b.schema().inputs})
+    for (const Parameter& p : *rows)
+      if (p.positional) names.push_back(p.name);
+  context_.reporter.error(
+      result.span, names.empty()
+                       ? "'" + b.title() + "' takes no value without the name of a parameter"
+                       : "one value too many: '" + b.title() + "' takes " +
+                             std::to_string(names.size()) + " without names (" + orList(names) +
+                             ")");
+}
+
+// parameter value := name (expression | word | pigment | block)
+void Parser::setting(BlockBuilder& b, const Parameter& row) {
+  const Token name = stream_.next();
+  if (row.type == ValueType::block) return blockSetting(b, row, name.span);
+  if (row.texturable && pigmentSetting(b, row, name.span)) return;
+  if (row.type == ValueType::choice && choiceSetting(b, row, name.span)) return;
+  const Token ahead = stream_.peek();
+  const bool isName = ahead.kind == Token::Kind::name;
+  const bool isItem = isName && !context_.symbols.find(ahead.text) &&
+                      (b.row(*ahead.text) || isTransformWord(*ahead.text));
+  const bool isMissing = isItem || (isName && words_.opensBlock(*ahead.text)) ||
+                         (!isName && !expressions_.begins(ahead));
+  if (isMissing && row.type == ValueType::boolean) {  // `two_sided` alone
+    b.set(row, name.span, Numbers(1), name.span);
+    return;
+  }
+  if (isMissing) expressions_.unexpected(expectation(row) + " after '" + row.name + "'");
+  const auto result = expressions_.evaluate(ExpressionParser::Place::setting);
+  b.set(row, name.span, result.value, result.span);
+}
+
+// word := one of the row's choices, bare
+bool Parser::choiceSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan) {
+  const Token t = stream_.peek();
+  const auto& all = row.choices;
+  const bool isChoice =
+      t.kind == Token::Kind::name && std::find(all.begin(), all.end(), *t.text) != all.end();
+  if (!isChoice && (t.kind != Token::Kind::name || expressions_.begins(t))) return false;
+  stream_.next();
+  b.setWord(row, nameSpan, *t.text, t.span);
+  return true;
+}
+
+// pigment := 'pigment' ... | name of a declared pigment
+bool Parser::pigmentSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan) {
+  const Token t = stream_.peek();
+  if (t.isWord("pigment")) {
+    stream_.next();
+    const Nested nested(context_, t.span);
+    countBlocks(context_, Block{}, t.span);
+    b.setBlock(row, nameSpan, finishBlock(head("pigment", {nullptr, t.span}), Braces::optional));
+    return true;
+  }
+  const BlockPtr declared = declaredBlock(t);
+  if (!declared || declared->kind != "pigment") return false;
+  stream_.next();
+  countBlocks(context_, *declared, t.span);
+  b.setBlock(row, nameSpan, *declared);
+  return true;
+}
+
+// block := [kind] plugin ['{' item* '}'] | '{' plugin item* '}' | name
+// A parameter that is called like a plugin means it: `image { "sky.exr" }`.
+void Parser::blockSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan) {
+  const std::string& kind = row.blockKind;
+  const Nested nested(context_, nameSpan);
+  countBlocks(context_, Block{}, nameSpan);
+  Head start{nullptr, nameSpan};
+  if (row.name != kind && isAhead(kind.c_str())) stream_.next();
+  if (stream_.peek().is("{") && !words_.find(kind, *stream_.peekRaw(1).text))
+    start.schema = words_.find(kind, row.name);
+  if (words_.plugins(kind).empty())
+    context_.reporter.syntaxError(nameSpan, "no plugin of kind '" + kind + "' is installed");
+  b.setBlock(row, nameSpan, finishBlock(head(kind, start), Braces::optional));
+}
+
+// A block inside a block. One that cannot stand here but could outside: a '}' was forgotten.
+Parser::Next Parser::nested(BlockBuilder& b, const Token& t) {
+  const bool isShape = words_.isShape(*t.text) && !words_.isKind(*t.text);
+  const std::string kind = isShape ? "shape" : *t.text;
+  const bool isObject = t.isWord("object");
+  if (b.mayContain(kind) || (isObject && (b.mayContain("shape") || b.mayContain("union")))) {
+    b.add(block());
+    return Next::more;
+  }
+  const Parameter* next = b.nextPositional();
+  if (next && next->texturable && kind == "pigment") {
+    pigmentSetting(b, *next, t.span);
+    return Next::more;
+  }
+  if (!isObject && !words_.standsAlone(kind))
+    context_.reporter.syntaxError(
+        t.span, "a " + kind + " cannot stand in '" + b.title() + "'" +
+                    (kind == "pigment" ? " by itself: write the parameter that it is for, as in "
+                                         "'diffuse pigment ...'"
+                                       : ""));
+  b.forgiveMissing();
+  ++assumedBraces_;
+  context_.reporter.error(t.span, "expected '}' (to close '{' of '" + b.title() + "' at line " +
+                                      std::to_string(context_.sources.lineOf(b.head().file,
+                                                                             b.head().begin) +
+                                                     1) +
+                                      "), found '" + *t.text + "'");
+  return Next::closed;
+}
+
+void Parser::declaredItem(BlockBuilder& b, const Token& t, const Block& declared) {
+  if (!b.mayContain(declared.kind)) {
+    const bool isPigment = declared.kind == "pigment";
+    context_.reporter.syntaxError(
+        t.span, "'" + *t.text + "' is " + describe(Datum(std::make_shared<const Block>(declared))) +
+                    ", which cannot stand in '" + b.title() + "'" +
+                    (isPigment ? " by itself: write the parameter that it is for" : ""));
+  }
+  stream_.next();
+  countBlocks(context_, declared, t.span);
+  b.add(declared);
+}
+
+void Parser::unknownItem(BlockBuilder& b, const Token& t) {
+  if (const char* instead = insteadOf(*t.text))
+    context_.reporter.syntaxError(t.span, "'" + *t.text + "' is a word of POV-Ray's: " + instead);
+  std::vector<std::string> rows;
+  for (const auto* part : {&b.schema().params, &b.schema().inputs})
+    for (const Parameter& p : *part) rows.push_back(p.name);
+  std::vector<std::string> known = rows;
+  for (const std::string& kind : b.schema().children) known.push_back(kind);
+  for (const std::string& name : context_.symbols.names()) known.push_back(name);
+  const std::string near = didYouMean(*t.text, known);
+  Diagnostic& d = context_.reporter.error(
+      t.span, "'" + b.title() + "' has no parameter '" + *t.text + "'" + near);
+  if (near.empty() && !rows.empty()) d.notes.push_back({{}, "it has " + orList(rows)});
+  throw SyntaxError{};
+}
+
+// ---------------------------------------------------------------- going on after an error
+/// Takes tokens up to one that satisfies `stopsAt` outside all braces that are opened on the way;
+/// directives are obeyed, so that an #end finds its #if.
+template <class StopsAt>
+void Parser::skip(StopsAt stopsAt, bool stopsAfterBraces) {
+  int depth = 0;
+  for (;;) {
+    const Token t = stream_.peekRaw();
+    if (t.kind == Token::Kind::end) return;
+    if (t.kind == Token::Kind::directive) {
+      if (depth == 0) return;
+      stream_.onDirective(stream_.nextRaw());
+      continue;
+    }
+    if (depth == 0 && stopsAt(t)) return;
+    if (t.is("{")) ++depth;
+    if (t.is("}")) --depth;
+    stream_.nextRaw();
+    if (t.is("}") && depth <= 0 && stopsAfterBraces) return;
+  }
+}
+
+void Parser::skipToStatement() {
+  skip([&](const Token& t) { return t.kind == Token::Kind::name && words_.opensBlock(*t.text); },
+       true);
+}
+
+void Parser::skipToItem(const BlockBuilder& b) {
+  skip(
+      [&](const Token& t) {
+        if (t.is("}")) return true;
+        return t.kind == Token::Kind::name &&
+               (b.row(*t.text) || isTransformWord(*t.text) || words_.opensBlock(*t.text));
+      },
+      false);
+}
+
+BlockPtr Parser::declaredBlock(const Token& name) const {
+  if (name.kind != Token::Kind::name) return nullptr;
+  const Cell cell = context_.symbols.find(name.text);
+  const auto* block = cell ? std::get_if<BlockPtr>(&cell->value) : nullptr;
+  return block ? *block : nullptr;
+}
+
+}  // namespace vestige::lang

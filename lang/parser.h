@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The grammar of scenes and blocks. It knows no plugin: what may stand where comes from schemas.
+#pragma once
+#include "lang/builder.h"
+#include "lang/expressions.h"
+
+namespace vestige::lang {
+
+class Parser {
+ public:
+  Parser(Context& context, TokenStream& stream, const Vocabulary& words)
+      : context_(context), stream_(stream), words_(words), expressions_(context, stream, words) {}
+
+  /// Everything up to the end of the text.
+  void scene(SceneDesc& scene);
+
+  /// What may stand right of `#declare A =` and as a macro's argument.
+  struct Declared {
+    Datum value;
+    Span span;
+  };
+  Declared value(ExpressionParser::Place place);
+  ExpressionParser& expressions() { return expressions_; }
+  const Vocabulary& words() const { return words_; }
+  /// After a syntax error: to the next word that begins something here.
+  void skipToStatement();
+
+ private:
+  /// The beginning of a block: which schema it has, and what it takes over.
+  struct Head {
+    const Schema* schema = nullptr;
+    Span span;
+    BlockPtr base = nullptr;
+    bool isOpen = false;  ///< '{' has been taken
+    Span brace = {};
+  };
+  enum class Braces { needed, optional };
+
+  void statement(SceneDesc& scene);
+  void addToScene(SceneDesc& scene, Block block);
+  Block block();
+  Block objectBlock();
+  Block finishBlock(Head head, Braces braces);
+  Head head(const std::string& kind, Head head);
+  bool headName(const std::string& kind, Head& head);
+  [[noreturn]] void unknownPlugin(const std::string& kind, const Token& found);
+
+  void items(BlockBuilder& b, const Span& brace);
+  enum class Next { more, closed };
+  Next item(BlockBuilder& b, bool afterComma);
+  void word(BlockBuilder& b, const Token& name);
+  void positional(BlockBuilder& b);
+  void setting(BlockBuilder& b, const Parameter& row);
+  void blockSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
+  bool pigmentSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
+  bool choiceSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
+  Next nested(BlockBuilder& b, const Token& word);
+  void declaredItem(BlockBuilder& b, const Token& name, const Block& declared);
+  void unknownItem(BlockBuilder& b, const Token& name);
+  bool isValue(const BlockBuilder& b, const Token& t, bool afterComma) const;
+  void skipToItem(const BlockBuilder& b);
+  template <class StopsAt>
+  void skip(StopsAt stopsAt, bool stopsAfterBraces);
+
+  Affine transform();
+  Affine transformBlock();
+  Affine matrix();
+  std::optional<Numbers> transformVector(const std::string& word, Span& span);
+  Declared function();
+  Declared array();
+  void elements(Array& array, std::size_t level, std::size_t first);
+
+  BlockPtr declaredBlock(const Token& name) const;
+  bool isAhead(const char* word) { return stream_.peek().isWord(word); }
+
+  Context& context_;
+  TokenStream& stream_;
+  const Vocabulary& words_;
+  ExpressionParser expressions_;
+  int assumedBraces_ = 0;  ///< '}' that were missing and may still turn up
+};
+
+}  // namespace vestige::lang

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/source.h"
+
+#include <algorithm>
+
+#include "lang/lang.h"
+
+namespace vestige::lang {
+namespace {
+
+/// Past this many different calls a chain is reported up to its first part only: recursion with
+/// many branches must not fill the memory with places.
+constexpr std::size_t kMostExpansions = 1'000'000;
+
+/// Characters, not bytes, of UTF-8.
+int characters(const std::string& text, std::size_t from, std::size_t to) {
+  return int(std::count_if(text.begin() + std::ptrdiff_t(from), text.begin() + std::ptrdiff_t(to),
+                           [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+int Sources::add(std::string name, std::string text) {
+  Text t{std::move(name), std::move(text), {0}};
+  for (std::size_t i = 0; i < t.text.size(); ++i)
+    if (t.text[i] == '\n') t.lineStarts.push_back(std::uint32_t(i + 1));
+  texts_.push_back(std::move(t));
+  return size() - 1;
+}
+
+int Sources::expand(Expansion::Kind kind, const std::string& name, const Span& call) {
+  const std::string key = (kind == Expansion::Kind::macro ? "m" : "i") + name + '\n' +
+                          std::to_string(call.file) + ' ' + std::to_string(call.begin) + ' ' +
+                          std::to_string(call.via);
+  if (const auto found = known_.find(key); found != known_.end()) return found->second;
+  if (expansions_.size() >= kMostExpansions) return call.via;
+  expansions_.push_back({kind, name, call, depth(call.via) + 1});
+  return known_[key] = int(expansions_.size()) - 1;
+}
+
+std::string Sources::excerpt(const Span& span) const {
+  return span.file < 0 ? std::string()
+                       : text(span.file).text.substr(span.begin, span.end - span.begin);
+}
+
+int Sources::lineOf(int file, std::uint32_t offset) const {
+  const auto& starts = text(file).lineStarts;
+  return int(std::upper_bound(starts.begin(), starts.end(), offset) - starts.begin()) - 1;
+}
+
+Span Sources::join(Span a, Span b) const {
+  if (a.file < 0) return b;
+  if (b.file < 0) return a;
+  while (a.via != b.via) {
+    Span& deeper = depth(a.via) >= depth(b.via) ? a : b;
+    deeper = expansion(deeper.via).call;
+  }
+  if (a.file != b.file) return a;
+  a.begin = std::min(a.begin, b.begin);
+  a.end = std::max(a.end, b.end);
+  return a;
+}
+
+Place locate(const Span& span, const Sources& sources) {
+  Place place;
+  if (span.file < 0 || span.file >= sources.size()) return place;
+  const Text& text = sources.text(span.file);
+  const auto position = [&](std::uint32_t offset, int& line, int& column) {
+    offset = std::min(offset, std::uint32_t(text.text.size()));
+    const int l = sources.lineOf(span.file, offset);
+    line = l + 1;
+    column = characters(text.text, text.lineStarts[std::size_t(l)], offset) + 1;
+  };
+  place.file = text.name;
+  position(span.begin, place.line, place.column);
+  position(std::max(span.begin, span.end), place.endLine, place.endColumn);
+  return place;
+}
+
+}  // namespace vestige::lang

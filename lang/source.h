@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The texts that spans refer to, and the macro calls and includes through which a token came.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <vestige/diagnostic.h>
+
+namespace vestige::lang {
+
+/// One text: a file, or a definition from the command line.
+struct Text {
+  std::string name;  ///< as the user gave it, or where an include was found
+  std::string text;
+  std::vector<std::uint32_t> lineStarts;  ///< byte offsets
+};
+
+/// Why a piece of text was read: a macro's body for a call, a file for an #include.
+struct Expansion {
+  enum class Kind { macro, include };
+  Kind kind = Kind::macro;
+  std::string name;
+  Span call;      ///< of the call or of the #include; its own `via` leads further out
+  int depth = 1;  ///< length of the chain
+};
+
+class Sources {
+ public:
+  int add(std::string name, std::string text);
+  /// The same call through the same chain is the same expansion, so that loops cost nothing.
+  int expand(Expansion::Kind kind, const std::string& name, const Span& call);
+
+  int size() const noexcept { return int(texts_.size()); }
+  const Text& text(int file) const { return texts_[std::size_t(file)]; }
+  const Expansion& expansion(int via) const { return expansions_[std::size_t(via)]; }
+  int depth(int via) const { return via < 0 ? 0 : expansion(via).depth; }
+  std::string excerpt(const Span& span) const;
+  /// From 0.
+  int lineOf(int file, std::uint32_t offset) const;
+  /// From the beginning of one to the end of the other; where they came through different calls,
+  /// as seen from the innermost text that holds both.
+  Span join(Span a, Span b) const;
+
+ private:
+  std::vector<Text> texts_;
+  std::vector<Expansion> expansions_;
+  std::unordered_map<std::string, int> known_;  ///< expansions by kind, name and call
+};
+
+}  // namespace vestige::lang

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/stream.h"
+
+namespace vestige::lang {
+
+void TokenStream::push(Frame frame) {
+  if (!frames_.empty()) context_.symbols.push();  // the main file's table is the global one
+  frames_.push_back(std::move(frame));
+}
+
+void TokenStream::pop() {
+  frames_.pop_back();
+  context_.symbols.pop();
+}
+
+Token TokenStream::read(const Frame& frame, std::uint32_t i) const {
+  Token t = frame.token(i);
+  t.span.via = frame.via;
+  return t;
+}
+
+Token TokenStream::advance() {
+  while (frames_.size() > 1 && frame().at >= frame().end) pop();
+  Frame& f = frame();
+  if (f.at >= f.end) return read(f, std::uint32_t(f.list->tokens.size() - 1));
+  Token t = read(f, f.at++);
+  context_.step(t.span);
+  return t;
+}
+
+const Token& TokenStream::peek() {
+  while (!hasNext_) {
+    Token t = advance();
+    if (t.kind == Token::Kind::directive) {
+      onDirective(t);
+    } else if (t.kind != Token::Kind::name || !onName(t)) {
+      next_ = t;
+      hasNext_ = true;
+    }
+  }
+  return next_;
+}
+
+Token TokenStream::next() {
+  peek();
+  hasNext_ = false;
+  last_ = next_.span;
+  ++taken_;
+  return next_;
+}
+
+bool TokenStream::accept(const char* sign) {
+  if (!peek().is(sign)) return false;
+  next();
+  return true;
+}
+
+bool TokenStream::acceptVectorEnd() {
+  if (accept(">")) return true;
+  if (!peek().is(">=")) return false;
+  last_ = next_.span;
+  last_.end = ++next_.span.begin;
+  next_.text = context_.names.intern("=");
+  if (peekRaw(1).is("=")) advance();  // '>==' is '>' and '=='
+  return true;
+}
+
+Token TokenStream::peekRaw(int ahead) const {
+  if (hasNext_ && ahead-- == 0) return next_;
+  for (std::size_t f = frames_.size(); f-- > 0;) {
+    const Frame& frame = frames_[f];
+    const auto left = int(frame.end - std::min(frame.at, frame.end));
+    if (ahead < left) return read(frame, frame.at + std::uint32_t(ahead));
+    ahead -= left;
+  }
+  const Frame& bottom = frames_.front();
+  return read(bottom, std::uint32_t(bottom.list->tokens.size() - 1));
+}
+
+Token TokenStream::nextRaw() {
+  if (!hasNext_) next_ = advance();
+  hasNext_ = false;
+  last_ = next_.span;
+  ++taken_;
+  return next_;
+}
+
+bool TokenStream::acceptRaw(const char* sign) {
+  if (!peekRaw().is(sign)) return false;
+  nextRaw();
+  return true;
+}
+
+Span TokenStream::behindLast() const {
+  Span s = last_;
+  s.begin = s.end;
+  return s;
+}
+
+}  // namespace vestige::lang

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tokens in the order in which they count: macros expanded, includes opened, directives obeyed.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "lang/context.h"
+
+namespace vestige::lang {
+
+/// A construct between a directive and its #end that is being read.
+struct OpenDirective {
+  enum class Kind { branch, whileLoop, forLoop, choice };
+  Kind kind = Kind::branch;
+  std::uint32_t first = 0;  ///< index of the directive that opened it
+  Cell counter = {};        ///< of #for, with its last value and step
+  double last = 0, step = 1;
+};
+
+/// A text or a macro's body that is being read.
+struct Frame {
+  enum class Kind { file, macro };
+  Kind kind = Kind::file;
+  const TokenList* list = nullptr;
+  std::uint32_t at = 0, end = 0;  ///< next token, one past the last
+  int via = -1;                   ///< what leads here, for the spans
+  int file = -1;                  ///< of a file: its index in Sources
+  std::vector<OpenDirective> open = {};
+
+  const Token& token(std::uint32_t i) const { return list->tokens[i]; }
+};
+
+class TokenStream {
+ public:
+  explicit TokenStream(Context& context) : context_(context) {}
+
+  /// Called for each directive that is reached. May read on, and may move the frame.
+  std::function<void(const Token&)> onDirective;
+  /// Called for each name; true: it was a macro's and is now being read.
+  std::function<bool(const Token&)> onName;
+
+  void push(Frame frame);
+  Frame& frame() { return frames_.back(); }
+  const std::vector<Frame>& frames() const { return frames_; }
+  /// Leaves the innermost frame with its names.
+  void pop();
+
+  /// The next token, after all directives and macros before it. `end` at the end, for ever.
+  const Token& peek();
+  Token next();
+  bool accept(const char* sign);
+  /// '>' at the end of a vector. Of '>=' the rest stays, so that <1,2,3>=<3,2,1> compares.
+  bool acceptVectorEnd();
+
+  /// The next token as it stands: no directive is obeyed, no macro expanded. May look a few ahead,
+  /// through the ends of macros.
+  Token peekRaw(int ahead = 0) const;
+  Token nextRaw();
+  bool acceptRaw(const char* sign);
+
+  /// Where the last token that was taken ends: the place to miss a ';'.
+  Span behindLast() const;
+  const Span& last() const { return last_; }
+  /// Grows with every token taken: tells whether a step made any progress.
+  std::int64_t taken() const { return taken_; }
+
+ private:
+  Token read(const Frame& frame, std::uint32_t i) const;
+  /// Takes the next raw token from the frames, leaving those that are at their end.
+  Token advance();
+
+  Context& context_;
+  std::vector<Frame> frames_;
+  bool hasNext_ = false;
+  Token next_;
+  Span last_;
+  std::int64_t taken_ = 0;
+};
+
+}  // namespace vestige::lang

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who is called what: POV-Ray's dynamic stack of tables, main file < include < macro call.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "lang/lexer.h"
+#include "lang/value.h"
+
+namespace vestige::lang {
+
+/// A macro is a range of tokens; its text means what the caller's names mean.
+struct Macro {
+  struct Parameter {
+    const std::string* name;
+    bool isOptional = false;
+    Datum initial = {};  ///< of an optional one; monostate: undefined in the body if left out
+  };
+  const std::string* name;
+  std::vector<Parameter> parameters;
+  const TokenList* list;
+  std::uint32_t begin, end;  ///< the body's tokens
+  Span declared;
+};
+
+struct Symbol {
+  Datum value;
+  Span declared;
+};
+/// Shared between a name and the macro parameters that stand for it.
+using Cell = std::shared_ptr<Symbol>;
+
+class Symbols {
+ public:
+  using Table = std::unordered_map<const std::string*, Cell>;
+
+  Symbols() { push(); }
+  void push() { tables_.emplace_back(); }
+  void pop() { tables_.pop_back(); }
+  Table& top() { return tables_.back(); }
+
+  /// The nearest binding, or null.
+  Cell find(const std::string* name) const {
+    for (auto t = tables_.rbegin(); t != tables_.rend(); ++t)
+      if (const auto found = t->find(name); found != t->end()) return found->second;
+    return nullptr;
+  }
+  /// #declare: the nearest binding, else a new global one.
+  Cell declare(const std::string* name) {
+    if (Cell cell = find(name)) return cell;
+    return create(tables_.front(), name);
+  }
+  /// #local: a binding in the innermost table.
+  Cell local(const std::string* name) {
+    if (const auto found = top().find(name); found != top().end()) return found->second;
+    return create(top(), name);
+  }
+  /// #undef: the nearest binding; false if there is none.
+  bool undefine(const std::string* name) {
+    for (auto t = tables_.rbegin(); t != tables_.rend(); ++t)
+      if (t->erase(name) > 0) return true;
+    return false;
+  }
+  /// Every visible name, for "did you mean".
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const Table& t : tables_)
+      for (const auto& [name, cell] : t) all.push_back(*name);
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+ private:
+  static Cell create(Table& table, const std::string* name) {
+    return table[name] = std::make_shared<Symbol>();
+  }
+  std::vector<Table> tables_;
+};
+
+}  // namespace vestige::lang

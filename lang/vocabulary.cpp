@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/vocabulary.h"
+
+#include "lang/builtins.h"
+
+namespace vestige::lang {
+
+Vocabulary::Vocabulary(std::span<const Schema> schemas) : parts_{"brdf", "pigment"} {
+  for (const Schema& s : schemas) {
+    plugins_[s.kind].push_back(s.name);
+    schemas_.emplace(std::pair(s.kind, s.name), &s);
+    for (const auto* rows : {&s.params, &s.inputs})
+      for (const Parameter& p : *rows)
+        if (p.type == ValueType::block) parts_.insert(p.blockKind);
+  }
+}
+
+const Schema* Vocabulary::find(const std::string& kind, const std::string& plugin) const {
+  const auto found = schemas_.find(std::pair(kind, plugin));
+  return found == schemas_.end() ? nullptr : found->second;
+}
+
+bool Vocabulary::opensBlock(const std::string& word) const {
+  return word == "object" || isKind(word) || isShape(word);
+}
+
+const std::vector<std::string>& Vocabulary::plugins(const std::string& kind) const {
+  static const std::vector<std::string> none;
+  const auto found = plugins_.find(kind);
+  return found == plugins_.end() ? none : found->second;
+}
+
+std::vector<std::string> Vocabulary::blockWords() const {
+  std::vector<std::string> words = plugins("shape");
+  words.push_back("object");
+  for (const auto& [kind, names] : plugins_)
+    if (kind != "shape") words.push_back(kind);
+  return words;
+}
+
+const char* insteadOf(const std::string& word) {
+  static const char* const brdf = "write 'brdf NAME { ... }', as in 'brdf lambert { diffuse Red }'";
+  static const char* const glow = "write 'emission rgb 1' in the shape to make it shine";
+  static const char* const glass = "write 'brdf glass { ior 1.5 }' in the shape";
+  static const char* const sky = "write 'light environment { radiance rgb 1 }'";
+  static const char* const lens = "write 'camera thin_lens { aperture 0.1 focal_point <0, 0, 0> }'";
+  static const char* const light = "write 'light point { location <0, 5, 0> intensity rgb 10 }' "
+                                   "or 'light area { corner, edge, edge radiance rgb 10 }'";
+  static const char* const rough = "write 'brdf rough_conductor { alpha 0.1 }' or 'brdf phong { "
+                                   "specular rgb 0.5 exponent 50 }'";
+  static const char* const none = "it has no counterpart here; light is computed, not set";
+  static const char* const notYet = "Vestige does not have it yet";
+  static const std::map<std::string, const char*> words = {
+      {"texture", brdf}, {"finish", brdf}, {"material", brdf}, {"phong_size", rough},
+      {"normal", "write 'normal_map pigment image { \"file\" }' in a brdf"},
+      {"interior", glass}, {"interior_texture", glass}, {"media", notYet}, {"density", notYet},
+      {"light_source", light}, {"spotlight", "write 'light spot { ... }'"},
+      {"area_light", light}, {"light_group", notYet}, {"looks_like", glow},
+      {"ambient", glow}, {"emission_map", glow}, {"ambient_light", sky},
+      {"background", sky}, {"sky_sphere", sky}, {"fog", notYet}, {"rainbow", notYet},
+      {"global_settings", "write 'integrator path { samples 64 depth 8 }' and 'film { ... }'"},
+      {"radiosity", none}, {"photons", none}, {"no_shadow", none}, {"hollow", none},
+      {"no_reflection", none}, {"no_image", none}, {"double_illuminate", none},
+      {"assumed_gamma", none}, {"max_trace_level", "write 'depth' in the integrator"},
+      {"focal_blur", lens}, {"blur_samples", lens}, {"perspective", "write 'camera pinhole'"},
+      {"color_map", notYet}, {"colour_map", notYet}, {"pigment_map", notYet},
+      {"texture_map", notYet}, {"image_map", "write 'pigment image { \"file\" }'"},
+      {"bump_map", "write 'normal_map' in a brdf"},
+      {"uv_mapping", "an image is looked up by uv unless 'mapping' says otherwise"},
+      {"mesh2", "write 'mesh { \"file\" }'"}, {"smooth_triangle", "write 'mesh { \"file\" }'"},
+      {"blob", notYet}, {"isosurface", notYet}, {"julia_fractal", notYet}, {"lathe", notYet},
+      {"ovus", notYet}, {"parametric", notYet}, {"prism", notYet}, {"sphere_sweep", notYet},
+      {"superellipsoid", notYet}, {"sor", notYet}, {"bicubic_patch", notYet}, {"polygon", notYet},
+      {"poly", notYet}, {"cubic", notYet}, {"quartic", notYet}, {"quadric", notYet},
+      {"polynomial", notYet}, {"difference", notYet}, {"intersection", notYet}, {"merge", notYet},
+      {"clipped_by", notYet}, {"bounded_by", "bounds are found by themselves: leave it out"},
+      {"spline", notYet}, {"#default", notYet}, {"#fopen", notYet}, {"#read", notYet},
+      {"#write", notYet}, {"#fclose", notYet}, {"parallel", "write 'light distant { ... }'"}};
+  const auto found = words.find(word);
+  return found == words.end() ? nullptr : found->second;
+}
+
+bool isTransformWord(const std::string& word) {
+  return word == "translate" || word == "rotate" || word == "scale" || word == "matrix" ||
+         word == "transform";
+}
+
+bool isMovable(const std::string& kind) {
+  return kind != "film" && kind != "integrator" && kind != "footprint";
+}
+
+bool isExpressionWord(const std::string& word) {
+  static const std::set<std::string> words = {
+      "x",    "y",     "z",     "t",    "u",    "v",     "pi",    "tau",   "true",    "false",
+      "yes",  "no",    "on",    "off",  "rgb",  "rgbf",  "rgbt",  "rgbft", "srgb",    "srgbf",
+      "srgbt", "srgbft", "color", "colour", "red", "green", "blue", "filter", "transmit",
+      "defined", "clock", "version", "function", "array"};
+  return words.count(word) > 0 || findBuiltin(word) != nullptr;
+}
+
+std::string orList(const std::vector<std::string>& words) {
+  std::string s;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    s += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
+  return s;
+}
+
+}  // namespace vestige::lang

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// A perfect mirror, from either side.
+#include <vestige/brdf.h>
+#include <vestige/fresnel.h>
+#include <vestige/plugin.h>
+
+namespace vestige {
+namespace {
+
+class Mirror final : public Brdf {
+ public:
+  enum Input { kSpecular };
+
+  static Schema schema() {
+    return {.kind = "brdf",
+            .name = "mirror",
+            .summary = "perfect mirror",
+            .inputs = {rgb("specular", 1).range(0, 1).doc("reflected fraction")}};
+  }
+
+  Rgb eval(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+
+  std::optional<ScatterSample> sample(const ScatterPoint& p,
+                                      ScatterNumbers) const noexcept override {
+    const Rgb specular = p.inputs.rgb(kSpecular);
+    if (isBlack(specular)) return std::nullopt;
+    return ScatterSample{.toNext = reflectAt(p.toPrev, kNormal).direction,
+                         .weight = specular,
+                         .pdf = 1,
+                         .lobePdf = 1,
+                         .lobeChance = 1,
+                         .lobe = 0,
+                         .specular = true};
+  }
+
+  Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 0; }
+
+  ScatterJacobian sampleDerivatives(const ScatterPoint& p, ScatterNumbers) const noexcept override {
+    return {.du = {}, .dPrev = reflectAt(p.toPrev, kNormal).dPrev};
+  }
+
+  LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+
+ private:
+  static constexpr Vec3 kNormal = {0, 0, 1};
+};
+
+}  // namespace
+}  // namespace vestige
+
+VESTIGE_PLUGIN(vestige::Brdf, vestige::Mirror)

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Metal, plastic, paint and coloured glass from a handful of numbers, as glTF means them.
+//
+//     f = metallic           M
+//       + (1 - metallic) (1 - transmission) (S + B)
+//       + (1 - metallic) transmission       (S' + T)
+//
+//   M     GGX reflection, Schlick's Fresnel from base_color at normal incidence to white at grazing
+//   S, S' GGX reflection, F = specular * dielectric Fresnel of `ior`; S seen from outside always,
+//   S'
+//         from whichever side of a solid
+//   B     base_color / pi (1 - F(prev.z)) (1 - F(next.z)): what passed the surface twice
+//   T     GGX refraction, (1 - F) base_color
+//
+// A convex sum of models that each conserve energy and are reciprocal. glTF's own B, base_color /
+// pi (1 - F(prev . h)), gives more than it gets at grazing angles, so B has the separable form of
+// [AS00], without its constant: where the surface is smooth that would gain.
+//
+// [KHR]   Khronos. glTF 2.0 specification, appendix B; KHR_materials_{ior,specular,transmission}.
+// [AS00]  Ashikhmin, Shirley. An anisotropic Phong BRDF model. JGT 5(2), 2000.
+// [Wal07] Walter et al. Microfacet models for refraction through rough surfaces. EGSR 2007.
+#include <vestige/brdf.h>
+#include <vestige/microfacet.h>
+#include <vestige/plugin.h>
+
+namespace vestige {
+namespace {
+
+class Principled final : public Brdf {
+ public:
+  enum Input { kBaseColor, kMetallic, kRoughness, kSpecular, kTransmission, kIor };
+  enum Lobe { kDiffuse, kReflected, kRefracted };
+
+  static Schema schema() {
+    return {
+        .kind = "brdf",
+        .name = "principled",
+        .summary = "metal, plastic, paint and glass from a few numbers, as in glTF",
+        .inputs = {rgb("base_color", 0.8).range(0, 1).doc("of the matt part, metal or glass"),
+                   real("metallic", 0).range(0, 1).doc("0 plastic, paint or glass; 1 metal"),
+                   real("roughness", 0.5).range(0, 1).doc("square root of the GGX width"),
+                   real("specular", 1).range(0, 1).doc("scales the reflection of non-metals"),
+                   real("transmission", 0).range(0, 1).doc("0 opaque, 1 clear (or ground) glass"),
+                   real("ior", 1.5).range(0.1, 10).doc("index of the inside; outside is 1")}};
+  }
+
+  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    const Model m(p);
+    const Facet f = facetBetween(p.toPrev, toNext, m.eta);
+    Rgb value = m.diffuse(toNext.z).value;
+    if (f.exists()) value += facetValue(m.ggx, f, p.toPrev, toNext) * m.share(f, toNext).value;
+    return value;
+  }
+
+  std::optional<ScatterSample> sample(const ScatterPoint& p,
+                                      ScatterNumbers n) const noexcept override {
+    const Model m(p);
+    const Drawn d = draw(m, n);
+    const Real density = m.lobePdf(d);
+    const bool rightSide = d.lobe == kRefracted ? d.toNext.z < 0 : d.toNext.z > 0;
+    if (!(rightSide && d.chance * density > 0)) return std::nullopt;
+    // Of one facet, so that narrow lobes cancel exactly; a diffuse direction has its own half-way.
+    const Facet f = d.lobe == kDiffuse ? facetBetween(p.toPrev, d.toNext, m.eta) : d.facet;
+    Rgb value = m.diffuse(d.toNext.z).value;
+    if (f.exists()) value += facetValue(m.ggx, f, p.toPrev, d.toNext) * m.share(f, d.toNext).value;
+    const Real pdf = m.pdf(f, d.toNext);
+    return ScatterSample{.toNext = d.toNext,
+                         .weight = std::abs(d.toNext.z) / pdf * value,
+                         .pdf = pdf,
+                         .lobePdf = density,
+                         .lobeChance = d.chance,
+                         .lobe = d.lobe,
+                         .specular = false};
+  }
+
+  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    const Model m(p);
+    return m.pdf(facetBetween(p.toPrev, toNext, m.eta), toNext);
+  }
+
+  ScatterJacobian sampleDerivatives(const ScatterPoint& p,
+                                    ScatterNumbers n) const noexcept override {
+    const Model m(p);
+    const Drawn d = draw(m, n);
+    if (d.lobe == kDiffuse) return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
+    return {.du = byNumbers(d.turned, d.normal), .dPrev = byPrev(d.turned, d.normal)};
+  }
+
+  LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    const Model m(p);
+    const Facet f = facetBetween(p.toPrev, toNext, m.eta);
+    const Diffuse d = m.diffuse(toNext.z);
+    const Real diffuse = luminance(d.value);
+    Real facets = 0;
+    FacetGradient g = {};
+    if (f.exists()) {
+      const Tint t = m.share(f, toNext);
+      const Real fresnel = luminance(t.value);
+      facets = facetValue(m.ggx, f, p.toPrev, toNext) * fresnel;
+      if (fresnel > 0)
+        g = facetLogGradient(m.ggx, f, p.toPrev, toNext, luminance(t.slope) / fresnel);
+    }
+    if (!(diffuse + facets > 0)) return {};
+    const Real a = diffuse / (diffuse + facets), b = facets / (diffuse + facets);
+    return {a * Vec3{0, 0, d.byPrev} + b * g.dPrev, a * Vec3{0, 0, d.byNext} + b * g.dNext};
+  }
+
+  Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    return toNext.z < 0 ? sqr(roughInterfaceEta(p.inputs.real(kIor), p.inside)) : 1;
+  }
+
+ private:
+  /// A share of each channel that takes one of the ways at a facet, and its derivative by prev . h.
+  struct Tint {
+    Rgb value, slope;
+  };
+  /// f of the matt part, 1/sr, and d(log f) by prev.z and by next.z.
+  struct Diffuse {
+    Rgb value;
+    Real byPrev, byNext;
+  };
+  struct Chances {
+    Real reflect = 0, refract = 0;
+  };
+  /// What the random numbers chose, before it is known whether it leaves on the right side.
+  struct Drawn {
+    Lobe lobe;
+    Real chance;
+    Vec3 toNext;
+    VisibleNormal normal;  ///< these three: unless diffuse
+    Turned turned;
+    Facet facet;
+  };
+
+  /// The inputs at one point, put into the terms of the formula above.
+  struct Model {
+    Vec3 prev;
+    Ggx ggx;
+    Real eta, etaOutside;  ///< n_prev / n_next: as it is, and as if prev were outside
+    Rgb base;
+    Real specular;
+    Real metal, opaque, clear;  ///< weights, sum 1
+    Real diffuseChance;
+
+    explicit Model(const ScatterPoint& p) noexcept
+        : prev(p.toPrev),
+          ggx(sqr(p.inputs.real(kRoughness))),
+          eta(roughInterfaceEta(p.inputs.real(kIor), p.inside)),
+          etaOutside(roughInterfaceEta(p.inputs.real(kIor), false)),
+          base(p.inputs.rgb(kBaseColor)),
+          specular(p.inputs.real(kSpecular)),
+          metal(p.inputs.real(kMetallic)),
+          opaque((1 - metal) * (1 - p.inputs.real(kTransmission))),
+          clear((1 - metal) * p.inputs.real(kTransmission)) {
+      // By energy at normal facets, but never below a tenth: facets may see it otherwise.
+      const Real d = kPi * luminance(diffuse(1).value);
+      const Real s = luminance(reflected(prev.z).value) + luminance(refracted(prev.z, refractedCosine(prev.z, eta)).value);
+      diffuseChance = d > 0 ? std::clamp(d / (d + s), Real(0.1), s > 0 ? Real(0.9) : Real(1)) : 0;
+    }
+
+    Fresnel outside(Real c) const noexcept {
+      const Fresnel f = fresnelDielectric(c, etaOutside);
+      return {specular * f.value, specular * f.slope};
+    }
+
+    Diffuse diffuse(Real nextZ) const noexcept {
+      if (!(nextZ > 0) || isBlack(base)) return {};
+      const Fresnel in = outside(prev.z), out = outside(nextZ);
+      const Real a = 1 - in.value, b = 1 - out.value;
+      if (!(a * b > 0)) return {};
+      return {opaque * a * b / kPi * base, -in.slope / a, -out.slope / b};
+    }
+    Tint reflected(Real c) const noexcept {
+      const Fresnel out = outside(c), any = fresnelDielectric(c, eta);
+      const Rgb f = grey(opaque * out.value + clear * specular * any.value);
+      const Rgb slope = grey(opaque * out.slope + clear * specular * any.slope);
+      const Fresnel r = fresnelSchlick(c, base.r), g = fresnelSchlick(c, base.g),
+                    b = fresnelSchlick(c, base.b);
+      return {f + metal * Rgb{r.value, g.value, b.value},
+              slope + metal * Rgb{r.slope, g.slope, b.slope}};
+    }
+    /// t: the refracted cosine, negative where reflection is total.
+    Tint refracted(Real c, Real t) const noexcept {
+      if (t < 0) return {};
+      const Fresnel f = fresnelTransmitted(c, t, eta);
+      return {clear * (1 - specular + specular * f.value) * base, clear * specular * f.slope * base};
+    }
+    Tint share(const Facet& f, Vec3 toNext) const noexcept {
+      return toNext.z > 0 ? reflected(f.cosPrev) : refracted(f.cosPrev, f.cosNext);
+    }
+
+    /// Chances that a facet reflects or refracts, at cosine c; both 0 where it absorbs all.
+    Chances chances(Real c) const noexcept {
+      const Real r = luminance(reflected(c).value);
+      const Real t = luminance(refracted(c, refractedCosine(c, eta)).value);
+      return r + t > 0 ? Chances{r / (r + t), t / (r + t)} : Chances{};
+    }
+    Real lobePdf(const Drawn& d) const noexcept {
+      if (d.lobe == kDiffuse) return d.toNext.z / kPi;
+      return d.facet.exists() ? facetPdf(ggx, d.facet, prev, d.toNext) : 0;
+    }
+    Real pdf(const Facet& f, Vec3 toNext) const noexcept {
+      Real sum = diffuseChance * std::max(toNext.z, Real(0)) / kPi;
+      if (!f.exists()) return sum;
+      const Chances chance = chances(f.cosPrev);
+      sum += (1 - diffuseChance) * (toNext.z > 0 ? chance.reflect : chance.refract) *
+             facetPdf(ggx, f, prev, toNext);
+      return sum;
+    }
+  };
+
+  /// `lobe` picks matt or facets; u the direction or the facet's normal; what is left of `lobe`
+  /// whether the facet reflects. Chance 0: absorbed.
+  static Drawn draw(const Model& m, ScatterNumbers n) noexcept {
+    if (n.lobe < m.diffuseChance)
+      return {kDiffuse, m.diffuseChance, cosineHemisphere(n.u).d, {}, {}, {}};
+    const Real rest = (n.lobe - m.diffuseChance) / (1 - m.diffuseChance);
+    const VisibleNormal v = m.ggx.sampleVisible(m.prev, n.u);
+    const Chances chance = m.chances(std::max(dot(m.prev, v.h), Real(0)));
+    if (rest < chance.reflect)
+      return {kReflected, (1 - m.diffuseChance) * chance.reflect, {}, v,
+              reflectAt(m.prev, v.h), reflectingFacet(m.prev, v.h)};
+    if (!(chance.refract > 0)) return {};
+    return {kRefracted, (1 - m.diffuseChance) * chance.refract, {}, v,
+            refractAt(m.prev, v.h, m.eta), refractingFacet(m.prev, v.h, m.eta)};
+  }
+};
+
+}  // namespace
+}  // namespace vestige
+
+VESTIGE_PLUGIN(vestige::Brdf, vestige::Principled)

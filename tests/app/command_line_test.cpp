@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program says about itself, and about a command line that it does not understand.
+#include "app/run.h"
+#include "support/catch.h"
+
+TEST_CASE("help teaches: examples, commands, exit codes", "[app]") {
+  for (const char* word : {"--help", "-h", "help"}) {
+    const Run r = vestige({word});
+    CHECK(r.exit == 0);
+    CHECK(r.err == "");
+    for (const char* text : {"hello.scene", "render", "check", "describe", "compare", "130"})
+      CHECK_THAT(r.out, containsText(text));
+  }
+}
+
+TEST_CASE("each command has its help", "[app]") {
+  for (const char* command : {"render", "check", "describe", "compare"}) {
+    const Run r = vestige({command, "--help"});
+    CHECK(r.exit == 0);
+    CHECK_THAT(r.out, containsText(command));
+    CHECK(vestige({"help", command}).out == r.out);
+  }
+  CHECK_THAT(vestige({"render", "--help"}).out, containsText("--spp") && containsText("--crop"));
+}
+
+TEST_CASE("no argument at all shows the help and fails", "[app]") {
+  const Run r = vestige({});
+  CHECK(r.exit == 2);
+  CHECK(r.out == "");
+  CHECK_THAT(r.err, containsText("vestige COMMAND --help"));
+}
+
+TEST_CASE("the version names every library", "[app]") {
+  const Run r = vestige({"--version"});
+  CHECK(r.exit == 0);
+  for (const char* text : {"vestige 0.", "Embree ", "OpenImageIO", "OpenColorIO", "fmt ", "CLI11 ",
+                           "Real", "sdk=1", "lib/vestige/plugins"})
+    CHECK_THAT(r.out, containsText(text));
+}
+
+TEST_CASE("a misspelt command is named, and the nearest", "[app]") {
+  const Run r = vestige({"rendr", "x.scene"});
+  CHECK(r.exit == 2);
+  CHECK_THAT(r.err, containsText("'rendr'") && containsText("did you mean 'render'?"));
+}
+
+TEST_CASE("a misspelt option is named, and the nearest", "[app]") {
+  for (const auto& words : {std::vector<std::string>{"render", "x.scene", "--sppp", "4"},
+                            std::vector<std::string>{"render", "--sppp=4", "x.scene"}}) {
+    const Run r = vestige(words);
+    CHECK(r.exit == 2);
+    CHECK_THAT(r.err, containsText("'--sppp'") && containsText("did you mean '--spp'?"));
+  }
+}
+
+TEST_CASE("option values out of place are refused before anything is read", "[app]") {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--spp", "many"}, "--spp wants a whole number from 1"},
+      {{"--spp", "0"}, "found '0'"},
+      {{"--spp", "99999999999999999999"}, "--spp wants"},
+      {{"--threads", "-1"}, "--threads wants"},
+      {{"--seed", "4294967296"}, "--seed wants"},
+      {{"--time", "soon"}, "--time wants a time as 30s"},
+      {{"--time", "0s"}, "--time wants"},
+      {{"--time", "5x"}, "found '5x'"},
+      {{"--crop", "0,0,1"}, "--crop wants x0,y0,x1,y1"},
+      {{"--crop", "0.5,0,0.5,1"}, "--crop wants"},
+      {{"--crop", "0,0,1,2"}, "--crop wants"},
+      {{"--exposure", "nan"}, "--exposure wants"},
+      {{"--aov", "normals"}, "did you mean 'normal'?"},
+      {{"--progress", "loud"}, "--progress"},
+      {{"--width", "0"}, "--width wants"},
+      {{"-D", "1=2"}, "-D wants NAME=VALUE"},
+      {{"-D", "a="}, "-D wants NAME=VALUE"},
+      {{"--integrator", "pat"}, "did you mean 'path'?"},
+      {{"--plugin-path", "no/such/folder"}, "there is no folder 'no/such/folder'"},
+  };
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  for (const auto& [words, message] : cases) {
+    std::vector<std::string> line = {"render", scene, "-o", folder / "a.png"};
+    line.insert(line.end(), words.begin(), words.end());
+    const Run r = vestige(line);
+    INFO(words[0] << ' ' << words[1] << '\n' << r.err);
+    CHECK(r.exit == 2);
+    CHECK_THAT(r.err, containsText(message));
+  }
+  CHECK(folder.names().size() == 1);
+}
+
+TEST_CASE("a scene file that is not there is named, and the nearest", "[app]") {
+  const Folder folder;
+  folder.write("cornell.scene", smallScene());
+  const Run r = vestige({"render", "cornel.scene"}, {.folder = folder.path()});
+  CHECK(r.exit == 2);
+  CHECK_THAT(r.err, containsText("there is no scene file 'cornel.scene'") &&
+                        containsText("did you mean 'cornell.scene'?"));
+  CHECK(vestige({"render"}).exit == 2);
+  CHECK(vestige({"render", folder.path().string()}).exit == 2);
+}
+
+TEST_CASE("without plugins it says where it looked", "[app]") {
+  const Folder folder;
+  std::filesystem::create_directory(folder.path() / "bin");
+  std::filesystem::copy_file(VESTIGE_BINARY, folder.path() / "bin/vestige");
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = vestige({"check", scene}, {.program = folder / "bin/vestige"});
+  CHECK(r.exit == 3);
+  CHECK_THAT(r.err,
+             containsText("found no plugin") && containsText(folder / "lib/vestige/plugins"));
+}
+
+TEST_CASE("a library that is no plugin is refused with a reason and the render goes on", "[app]") {
+  const Folder folder;
+  folder.write("brdf_stranger.so", "not a library");
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = vestige({"check", scene, "--plugin-path", folder.path().string()});
+  CHECK(r.exit == 0);
+  CHECK_THAT(r.err, containsText("warning") && containsText("brdf_stranger.so"));
+}

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// vestige render from outside: files, progress, statistics, time, interruption.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/run.h"
+#include "support/catch.h"
+
+using nlohmann::json;
+
+namespace {
+
+/// RMSE between two pictures, by `vestige compare`; negative if it failed.
+double rmse(const std::string& a, const std::string& b) {
+  const Run r = vestige({"compare", a, b, "--json"});
+  return r.exit == 0 ? json::parse(r.out).at("rmse").get<double>() : -1;
+}
+
+/// Every line of stdout as an object.
+std::vector<json> objects(const std::string& text) {
+  std::vector<json> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) found.push_back(json::parse(line));
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("render writes each picture asked for", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string png = folder / "a.png", exr = folder / "a.exr";
+  const Run r = vestige({"render", scene, "-o", png, "-o", exr, "--spp", "1"});
+  INFO(r.err);
+  CHECK(r.exit == 0);
+  CHECK(r.out == "");
+  CHECK_THAT(r.err, containsText("wrote " + png) && containsText("16 x 16, 1 sample a pixel"));
+  CHECK(looksLikePicture(png));
+  CHECK(looksLikePicture(exr));
+  CHECK(folder.names().size() == 3);
+}
+
+TEST_CASE("a bare scene renders to its name with .png, here", "[app]") {
+  const Folder scenes, here;
+  const std::string scene = scenes.write("hello.scene", smallScene());
+  CHECK(vestige({scene, "--spp", "1"}, {.folder = here.path()}).exit == 0);
+  CHECK(looksLikePicture(here / "hello.png"));
+  CHECK(vestige({"--spp", "1", scene, "--progress", "none"}, {.folder = here.path()}).err == "");
+}
+
+TEST_CASE("the same render twice, and by one thread or two, is the same picture", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string a = folder / "a.exr", b = folder / "b.exr", c = folder / "c.exr";
+  REQUIRE(vestige({scene, "-o", a, "--spp", "4", "--threads", "1"}).exit == 0);
+  REQUIRE(vestige({scene, "-o", b, "--spp", "4", "--threads", "2"}).exit == 0);
+  REQUIRE(vestige({scene, "-o", c, "--spp", "4", "--seed", "7"}).exit == 0);
+  CHECK(rmse(a, b) == 0);
+  CHECK(rmse(a, c) > 0);
+}
+
+TEST_CASE("-D reaches the scene, which keeps its own value otherwise", "[app]") {
+  const Folder folder;
+  const std::string text = smallScene(
+      "#ifndef (Size) #declare Size = 1; #end\nsphere { <0, 1, 0>, Size brdf lambert { } }");
+  const std::string scene = folder.write("a.scene", text);
+  const std::string a = folder / "a.exr", b = folder / "b.exr", c = folder / "c.exr";
+  REQUIRE(vestige({scene, "-o", a, "--spp", "2"}).exit == 0);
+  REQUIRE(vestige({scene, "-o", b, "--spp", "2", "-D", "Size=1"}).exit == 0);
+  REQUIRE(vestige({scene, "-o", c, "--spp", "2", "-DSize=0.5"}).exit == 0);
+  CHECK(rmse(a, b) == 0);
+  CHECK(rmse(a, c) > 0.01);
+}
+
+TEST_CASE("size and crop", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = vestige({scene, "-o", folder / "a.exr", "--spp", "1", "--width", "40", "--height",
+                         "20", "--crop", "0.25,0,0.75,0.5", "--stats", "-"});
+  REQUIRE(r.exit == 0);
+  const json stats = json::parse(r.out);
+  CHECK(stats.at("width") == 20);
+  CHECK(stats.at("height") == 10);
+}
+
+TEST_CASE("the crop shows what the whole picture shows there", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string full = folder / "f.exr", part = folder / "p.exr";
+  REQUIRE(vestige({scene, "-o", full, "--spp", "1"}).exit == 0);
+  REQUIRE(vestige({scene, "-o", part, "--spp", "1", "--crop", "0,0,1,1"}).exit == 0);
+  CHECK(rmse(full, part) == 0);
+  const Run r = vestige({"compare", full, full, "-o", folder / "d.png"});
+  CHECK(r.exit == 0);
+  REQUIRE(vestige({scene, "-o", part, "--spp", "1", "--crop", "0,0,0.5,1"}).exit == 0);
+  const Run sizes = vestige({"compare", part, full});
+  CHECK(sizes.exit == 2);
+  CHECK_THAT(sizes.err, containsText("8 x 16") && containsText("16 x 16"));
+}
+
+TEST_CASE("AOVs go into EXR, and a PNG alone is warned about", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string exr = folder / "a.exr";
+  const Run r = vestige({scene, "-o", exr, "--spp", "1", "--aov", "all"});
+  CHECK(r.exit == 0);
+  std::ifstream file(exr, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  for (const char* word : {"normal.X", "albedo.R", "depth.Z", "position.X", "uv.U", "samples",
+                           "vestige:scene_hash", "vestige:version", "vestige:samples"})
+    CHECK(bytes.find(word) != std::string::npos);
+  const Run png = vestige({scene, "-o", folder / "a.png", "--spp", "1", "--aov", "normal"});
+  CHECK(png.exit == 0);
+  CHECK_THAT(png.err, containsText("warning: PNG and JPEG keep colour only"));
+}
+
+TEST_CASE("statistics count what was done", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string file = folder / "s.json";
+  const Run r = vestige({scene, "-o", folder / "a.png", "--spp", "3", "--threads", "2", "--stats",
+                         file, "--result-line"});
+  REQUIRE(r.exit == 0);
+  std::ifstream in(file);
+  const json s = json::parse(in);
+  CHECK(s.at("samples") == 3);
+  CHECK(s.at("paths") == 3 * 16 * 16);
+  CHECK(s.at("rays").get<double>() >= 3 * 16 * 16);
+  CHECK(s.at("shadow_rays").get<double>() > 0);
+  CHECK(s.at("threads") == 2);
+  CHECK(s.at("nonfinite") == 0);
+  CHECK(s.at("peak_memory_bytes").get<double>() > 1e6);
+  for (const char* key : {"load_s", "build_s", "render_s", "clamped", "texture_bytes", "triangles"})
+    CHECK(s.at(key).is_number());
+  REQUIRE(r.out.rfind("RESULT {", 0) == 0);
+  CHECK(json::parse(r.out.substr(7)).at("spp_actual") == 3);
+}
+
+TEST_CASE("progress as JSON is one object a line and ends with what was written", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string png = folder / "a.png";
+  const Run r = vestige({scene, "-o", png, "--time", "1s", "--progress", "json"});
+  REQUIRE(r.exit == 0);
+  const std::vector<json> lines = objects(r.out);
+  REQUIRE(lines.size() >= 3);
+  double share = 0;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    CHECK(lines[i].at("share").get<double>() >= share);
+    share = lines[i].at("share");
+  }
+  CHECK(lines.back().at("phase") == "done");
+  CHECK(lines.back().at("end") == "time is up");
+  CHECK(lines.back().at("files") == json::array({png}));
+}
+
+TEST_CASE("--time stops in time", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = vestige({scene, "-o", folder / "a.png", "--time", "1s", "--spp", "100000000"});
+  CHECK(r.exit == 0);
+  CHECK(r.seconds > 0.9);
+  CHECK(r.seconds < 5);
+  CHECK(looksLikePicture(folder / "a.png"));
+}
+
+TEST_CASE("an interrupted render keeps what is done", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string exr = folder / "a.exr";
+  for (const int signal : {2, 15}) {
+    const Run r =
+        vestige({scene, "-o", exr, "--spp", "100000000", "--progress", "json"},
+                {.folder = {}, .interruptAt = "\"rendering\"", .interruptSignal = signal});
+    INFO(r.err);
+    CHECK(r.exit == 130);
+    CHECK(looksLikePicture(exr));
+    CHECK(rmse(exr, exr) == 0);  // it can be read
+    CHECK(objects(r.out).back().at("end") == "interrupted");
+    std::filesystem::remove(exr);
+  }
+}
+
+TEST_CASE("an unwritable output is found before rendering", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::vector<std::pair<std::string, int>> cases = {
+      {folder / "no/such/folder/a.png", 3},
+      {folder.path().string(), 3},
+      {"/proc/a.png", 3},
+      {folder / "a.txt", 2},
+      {folder / "a", 2},
+  };
+  for (const auto& [file, code] : cases) {
+    const Run r = vestige({scene, "-o", file, "--spp", "1000000000"}, {.patience = 20});
+    INFO(file << ": " << r.err);
+    CHECK(r.exit == code);
+    CHECK(r.seconds < 5);
+    CHECK_THAT(r.err, containsText(file));
+  }
+  const Run stats = vestige({scene, "-o", folder / "a.png", "--stats", folder / "no/s.json"});
+  CHECK(stats.exit == 3);
+  CHECK(folder.names().size() == 1);
+}
+
+TEST_CASE("an unknown view is found before rendering", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r =
+      vestige({scene, "-o", folder / "a.png", "--view", "Fish eye", "--spp", "1000000000"},
+              {.patience = 20});
+  INFO(r.err);
+  CHECK(r.exit == 2);
+  CHECK_THAT(r.err, containsText("Fish eye"));
+  CHECK(folder.names().size() == 1);
+}
+
+TEST_CASE("a full disk is told, and leaves nothing half-written", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string exr = folder / "a.exr";
+  const Run r =
+      vestige({scene, "-o", exr, "--spp", "1", "--width", "200", "--height", "200"},
+              {.variables = {{"TMPDIR", folder.path().string()}, {"HOME", folder.path().string()}},
+               .fileSizeLimit = 8192});
+  INFO(r.err);
+  CHECK(r.exit == 3);
+  CHECK_THAT(r.err, containsText("error") && containsText(exr));
+  CHECK(folder.names().size() == 1);
+}
+
+TEST_CASE("one output that fails does not take the other with it", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = vestige({scene, "-o", folder / "a.exr", "-o", folder / "a.jpg", "--spp", "1",
+                         "--width", "128", "--height", "128"},
+                        {.fileSizeLimit = 16384});
+  INFO(r.err);
+  CHECK(r.exit == 3);
+  CHECK_THAT(r.err, containsText("a.exr") && containsText("wrote " + folder / "a.jpg"));
+  CHECK(folder.names().size() == 2);
+}
+
+TEST_CASE("a picture that does not fit into memory is the machine's fault", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = vestige({scene, "-o", folder / "a.exr", "--width", "60000", "--height", "60000"},
+                        {.memoryLimit = 4L << 30});
+  INFO(r.err);
+  CHECK(r.exit == 3);
+  CHECK_THAT(r.err, containsText("out of memory"));
+}

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The arrows of docs/architecture.md hold: no part includes what lies above or beside it. And the
+# files that CONTRIBUTING.md and docs/ point to exist. Usage: architecture.sh [CHECKOUT]
+set -euo pipefail
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
+status=0
+
+std='<[a-z_0-9]+>'
+system='<(unistd|dlfcn|fcntl|signal|termios|xmmintrin|pmmintrin|immintrin|sys/[a-z]+)\.h>'
+sdk='<vestige/[a-z_0-9/]+\.h>'
+
+# includes FOLDER ALLOWED: every #include below FOLDER is one of the extended regex ALLOWED.
+includes() {
+  local wrong
+  [[ -e $1 ]] || return 0
+  wrong=$(grep -rnE --include='*.h' --include='*.cpp' '^[[:space:]]*#[[:space:]]*include' "$1" |
+    grep -vE "#[[:space:]]*include[[:space:]]+($2)") || return 0
+  printf 'These may not be included in %s/ (docs/architecture.md):\n%s\n' "$1" "$wrong"
+  status=1
+}
+
+includes engine/sdk "$std|$sdk"
+includes engine/trace "$std|$system|$sdk|\"engine/trace/|<embree[34]/"
+includes engine/image "$std|$system|$sdk|\"engine/image/|<fmt/|<OpenImageIO/|<OpenColorIO/"
+includes engine/film "$std|$system|$sdk|\"engine/film/"
+includes engine/scene "$std|$system|$sdk|\"engine/(scene|trace|image)/|<fmt/"
+includes engine/render "$std|$system|$sdk|\"engine/"
+includes lang "$std|$system|$sdk|\"lang/|<fmt/"
+includes app "$std|$system|$sdk|\"(app|engine|lang)/|<fmt/|<CLI/|<nlohmann/"
+
+# A plugin sees the SDK and, if it is a folder, its own files; one of them brings a library.
+for kind in plugins/*/; do
+  for entry in "$kind"*; do
+    library='<>'
+    if [[ $entry == plugins/shape/mesh* ]]; then library='<assimp/'; fi
+    includes "$entry" "$std|$sdk|\"[a-z_0-9]+\.h\"|$library"
+  done
+done
+
+# The files that a page names: `path/with.ending`, and [text](path).
+# shellcheck disable=SC2016  # backticks of Markdown
+named_files() {
+  grep -oE '`[a-zA-Z_0-9.]+(/[a-zA-Z_0-9.]+)+\.(h|cpp|md|sh|scene|txt|cmake)`' "$1" | tr -d '`' || true
+  grep -oE '\]\([^):]+\)' "$1" | tr -d '()]' || true
+}
+
+for page in CONTRIBUTING.md README.md docs/*.md docs/adr/*.md; do
+  while IFS= read -r file; do
+    if [[ ! -e $file && ! -e $(dirname "$page")/$file ]]; then
+      printf '%s names %s, which does not exist\n' "$page" "$file"
+      status=1
+    fi
+  done < <(named_files "$page" | sort -u)
+done
+exit $status

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole renders of scenes whose radiance is known in closed form.
+#include <cmath>
+
+#include "images/picture.h"
+
+using namespace vestige;
+using namespace vestige::test;
+
+namespace {
+
+const std::string kSmall = "--width 32 --height 32 --spp 256";
+
+/// A small square of floor, reflectance 0.8, seen straight from above; direct light only.
+std::string floorUnder(const std::string& light) {
+  return "camera orthographic { location <0, 0.5, 0> look_at <0, 0, 0> sky z width 0.001 }\n"
+         "integrator path { depth 2 }\n"
+         "plane { y, 0 brdf lambert { diffuse rgb 0.8 } }\n" +
+         light;
+}
+
+void checkGrey(const Image& picture, double expected, double tolerance) {
+  for (int channel = 0; channel < 3; ++channel) {
+    INFO("channel " << channel);
+    CHECK(mean(picture, channel) == Approx(expected).epsilon(tolerance));
+  }
+}
+
+/// Share of a parallel rectangle in the view of a point below one of its corners [Howell, C-4].
+double cornerFormFactor(double a, double b, double h) {
+  const double x = a / h, y = b / h, rx = std::hypot(1, x), ry = std::hypot(1, y);
+  return (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) / (2 * kPi);
+}
+
+/// Nothing but a ball of some BRDF, everywhere in the picture, under a sky of radiance 1.
+Image furnace(const std::string& brdf) {
+  return renderText(
+      "camera orthographic { location <0, 0, -3> look_at <0, 0, 0> width 1.3 }\n"
+      "integrator path { depth 64 }\n"
+      "light environment { radiance rgb 1 }\n"
+      "sphere { <0, 0, 0>, 1 brdf " +
+          brdf + " }\n",
+      kSmall);
+}
+
+}  // namespace
+
+TEST_CASE("a ball that absorbs nothing vanishes in a white furnace", "[images]") {
+  for (const char* brdf : {"lambert { diffuse rgb 1 }", "mirror { specular rgb 1 }",
+                           "glass { ior 1.5 }", "glass { ior 1 }"}) {
+    INFO(brdf);
+    checkGrey(furnace(brdf), 1, 0.005);
+  }
+}
+
+TEST_CASE("no ball shines in a white furnace", "[images]") {
+  // What is missing went below the surface or between the microfacets: little, but for wide lobes.
+  struct Case {
+    const char* brdf;
+    double least;
+  };
+  for (const Case& c : {Case{"phong { specular rgb 1 exponent 20 }", 0.75},
+                        Case{"phong { specular rgb 1 exponent 2000 }", 0.97},
+                        Case{"rough_conductor { specular rgb 1 alpha 0.05 }", 0.98},
+                        Case{"rough_conductor { specular rgb 1 alpha 0.6 }", 0.7},
+                        Case{"rough_dielectric { ior 1.5 alpha 0.05 }", 0.98},
+                        Case{"rough_dielectric { ior 1.5 alpha 0.5 }", 0.75},
+                        Case{"principled { base_color rgb 1 metallic 1 roughness 0.3 }", 0.9},
+                        Case{"principled { base_color rgb 1 roughness 0.5 }", 0.8}}) {
+    INFO(c.brdf);
+    const Image picture = furnace(c.brdf);
+    for (int channel = 0; channel < 3; ++channel) {
+      CHECK(mean(picture, channel) <= 1.005);
+      CHECK(mean(picture, channel) >= c.least);
+    }
+  }
+}
+
+TEST_CASE("light goes round inside a matt ball for as many edges as asked", "[images]") {
+  // Point light of intensity pi at the centre, reflectance r = 1/2: each bounce adds half of the
+  // one before, r + r^2 + ... in all.
+  const auto inside = [](int depth) {
+    return "camera pinhole { location <0.3, 0.1, 0.2> look_at <0, 0, 1> angle 60 }\n"
+           "integrator path { depth " +
+           std::to_string(depth) +
+           " }\n"
+           "light point { location <0, 0, 0> intensity rgb pi }\n"
+           "sphere { <0, 0, 0>, 1 brdf lambert { diffuse rgb 0.5 } }\n";
+  };
+  checkGrey(renderText(inside(2), kSmall), 0.5, 0.002);
+  checkGrey(renderText(inside(3), kSmall), 0.75, 0.005);
+  checkGrey(renderText(inside(5), kSmall), 0.9375, 0.005);
+  checkGrey(renderText(inside(64), kSmall), 1, 0.005);
+}
+
+TEST_CASE("each light gives the floor what its formula says", "[images]") {
+  SECTION("area") {
+    const double factor = 4 * cornerFormFactor(1, 0.5, 2);
+    checkGrey(renderText(floorUnder("light area { <-1, 2, -0.5>, <2, 0, 0>, <0, 0, 1> "
+                                    "radiance rgb 10 }"),
+                         kSmall),
+              0.8 * 10 * factor, 0.003);
+  }
+  SECTION("area, from its dark side") {
+    checkGrey(renderText(floorUnder("light area { <-1, 2, -0.5>, <0, 0, 1>, <2, 0, 0> "
+                                    "radiance rgb 10 }"),
+                         kSmall),
+              0, 0.003);
+  }
+  SECTION("shining ball") {
+    checkGrey(renderText(floorUnder("sphere { <0, 3, 0>, 1.2 emission rgb 5 }"), kSmall),
+              0.8 * 5 * std::pow(1.2 / 3, 2), 0.003);
+  }
+  SECTION("shining ellipsoid, scaled from a ball") {
+    // From a point straight below, the outline of the spheroid is a cone of half-angle t with
+    // sin^2 t = a^2 / (a^2 - b^2 + h^2).
+    const double a = 1.5, b = 0.5, h = 2;
+    checkGrey(renderText(floorUnder("sphere { <0, 0, 0>, 1 emission rgb 5 "
+                                    "scale <1.5, 0.5, 1.5> translate <0, 2, 0> }"),
+                         kSmall),
+              0.8 * 5 * a * a / (a * a - b * b + h * h), 0.003);
+  }
+  SECTION("shining disc") {
+    checkGrey(renderText(floorUnder("disc { <0, 2, 0>, <0, -1, 0>, 1 emission rgb 5 }"), kSmall),
+              0.8 * 5 * 1.0 / (1 + 4), 0.003);
+  }
+  SECTION("point") {
+    checkGrey(
+        renderText(floorUnder("light point { location <1.5, 2, 0> intensity rgb 10 }"), kSmall),
+        0.8 / kPi * 10 * (2 / 2.5) / (2.5 * 2.5), 0.002);
+  }
+  SECTION("spot, on its axis") {
+    checkGrey(renderText(floorUnder("light spot { location <1.5, 2, 0> intensity rgb 10 "
+                                    "point_at <0, 0, 0> radius 20 falloff 30 }"),
+                         kSmall),
+              0.8 / kPi * 10 * (2 / 2.5) / (2.5 * 2.5), 0.002);
+  }
+  SECTION("spot, past its edge") {
+    checkGrey(renderText(floorUnder("light spot { location <1.5, 2, 0> intensity rgb 10 "
+                                    "point_at <1.5, 0, 0> radius 20 falloff 30 }"),
+                         kSmall),
+              0, 0.002);
+  }
+  SECTION("distant") {
+    checkGrey(
+        renderText(floorUnder("light distant { direction <3, -4, 0> irradiance rgb 2 }"), kSmall),
+        0.8 / kPi * 2 * 0.8, 0.002);
+  }
+  SECTION("environment") {
+    checkGrey(renderText(floorUnder("light environment { radiance rgb 0.5 }"), kSmall), 0.8 * 0.5,
+              0.005);
+  }
+}
+
+TEST_CASE("a picture is the same for any number of threads", "[images]") {
+  for (const char* scene : {"examples/hello.scene", "examples/pieces.scene"}) {
+    const std::string small = "--width 96 --height 72 --spp 5";
+    const Image one = renderFile(source(scene), small + " --threads 1");
+    const Image two = renderFile(source(scene), small + " --threads 2");
+    CHECK(one.pixels == two.pixels);
+    const Image other = renderFile(source(scene), small + " --seed 7");
+    CHECK(one.pixels != other.pixels);
+  }
+}
