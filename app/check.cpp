@@ -77,6 +77,7 @@ void addCheck(CLI::App& program, Action& chosen) {
   command->add_flag("--json", request->json, "diagnostics as JSON on stdout, for editors");
   command->add_flag("--syntax", request->syntaxOnly,
                     "only the text: no model or image file is opened");
+  addLimits(*command, request->input.limits);
   command->callback([request, &chosen] { chosen = [request] { return runCheck(*request); }; });
 }
 

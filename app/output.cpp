@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/output.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "app/terminal.h"
@@ -27,20 +30,35 @@ bool isForLooking(const std::string& file) {
   return e != ".exr" && e != ".hdr" && e != ".tif" && e != ".tiff";
 }
 
-/// Writes one black pixel beside the file and takes it away again: the only way to know that the
-/// colour configuration has the view, and that the disk takes a file.
-void tryWriting(const std::string& file, const WriteOptions& options) {
-  const fs::path probe =
-      fs::path(file).parent_path() / fmt::format(".vestige-probe-{}{}", getpid(), ending(file));
+/// A name beside `file` that nobody else has.
+std::string probeName(const std::string& file) {
+  return (fs::path(file).parent_path() / fmt::format(".vestige-probe-{}{}", getpid(), ending(file)))
+      .string();
+}
+
+/// Makes an empty file there and takes it away again: permissions alone do not tell, least of all
+/// to root. "" or why not.
+std::string whyNotCreated(const std::string& file) {
+  const std::string probe = probeName(file);
+  const int opened = open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0600);
+  if (opened < 0) return std::strerror(errno);
+  close(opened);
+  unlink(probe.c_str());
+  return "";
+}
+
+/// Writes one black pixel beside the file: the only way to know that the colour configuration has
+/// the view.
+void tryView(const std::string& file, const WriteOptions& options) {
+  const std::string probe = probeName(file);
   const Image black{1, 1, {"R", "G", "B"}, {0, 0, 0}, {}};
   std::string error;
-  const bool written = writeImage(probe.string(), black, options, error);
-  std::error_code ignored;
-  fs::remove(probe, ignored);
+  const bool written = writeImage(probe, black, options, error);
+  unlink(probe.c_str());
   if (written) return;
   // The user knows nothing of the probe.
-  if (const std::size_t at = error.find(probe.string()); at != std::string::npos)
-    error.replace(at, probe.string().size(), file);
+  if (const std::size_t at = error.find(probe); at != std::string::npos)
+    error.replace(at, probe.size(), file);
   throw Failure(kCommandLineWrong, error);
 }
 
@@ -66,21 +84,25 @@ std::string rescue(const Image& picture, const WriteOptions& options) {
 
 }  // namespace
 
-bool isWritablePlace(const std::string& file) {
+void checkWritable(const std::string& file) {
   std::error_code ignored;
-  if (fs::exists(file, ignored))
-    return !fs::is_directory(file, ignored) && access(file.c_str(), W_OK) == 0;
-  const fs::path folder = fs::path(file).parent_path();
-  return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0;
+  std::string why;
+  if (fs::is_directory(file, ignored))
+    why = "it is a folder";
+  else if (fs::exists(file, ignored) && access(file.c_str(), W_OK) != 0)
+    why = std::strerror(errno);
+  else
+    why = whyNotCreated(file);
+  if (!why.empty()) throw Failure(kMachineFailed, fmt::format("cannot write '{}': {}", file, why));
 }
 
 void checkOutputs(const OutputOptions& options, bool hasAovs) {
   for (const std::string& file : options.files) {
-    std::string error;
-    if (!canWrite(file, error))  // a place that is fine leaves only the name to blame
-      throw Failure(isWritablePlace(file) ? kCommandLineWrong : kMachineFailed, error);
+    checkWritable(file);
+    std::string error;  // the place is fine, so only the name is to blame
+    if (!canWrite(file, error)) throw Failure(kCommandLineWrong, error);
     const bool configured = options.viewGiven || std::getenv("OCIO");
-    if (configured && isForLooking(file)) tryWriting(file, options.write);
+    if (configured && isForLooking(file)) tryView(file, options.write);
   }
   if (hasAovs && std::all_of(options.files.begin(), options.files.end(), isForLooking))
     warn("PNG and JPEG keep colour only, so nothing of --aov is kept; add -o NAME.exr");

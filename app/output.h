@@ -25,10 +25,10 @@ struct PictureFacts {
   double seconds;
 };
 
-/// Failure if a file cannot be written, or the view is unknown: found before hours of work.
+/// Failure if the file could not be made or replaced, tried by making one beside it.
+void checkWritable(const std::string& file);
+/// Failure if a picture cannot be written, or the view is unknown: found before hours of work.
 void checkOutputs(const OutputOptions& options, bool hasAovs);
-/// Whether a new file could be made under this name; for statistics and the like.
-bool isWritablePlace(const std::string& file);
 
 /// The film's means as a picture with metadata.
 Image pictureOf(const Film& film, const PictureFacts& facts);

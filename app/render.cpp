@@ -33,8 +33,7 @@ void checkIntegrator(const std::string& wanted, const Registry& registry) {
 void checkRequest(const RenderRequest& r, const Registry& registry) {
   checkIntegrator(r.integrator, registry);
   checkOutputs(r.output, !r.aovs.empty());
-  if (!r.statsFile.empty() && r.statsFile != "-" && !isWritablePlace(r.statsFile))
-    throw Failure(kMachineFailed, fmt::format("'{}' cannot be written", r.statsFile));
+  if (!r.statsFile.empty() && r.statsFile != "-") checkWritable(r.statsFile);
 }
 
 RenderResult renderFilm(const RenderRequest& r, Scene& scene, Film& film) {

@@ -135,6 +135,7 @@ void addRenderOptions(CLI::App& command, RenderRequest& request) {
   addPicture(command, request);
   addQuality(command, request);
   addReports(command, request);
+  addLimits(command, request.input.limits);
 }
 
 }  // namespace vestige::app

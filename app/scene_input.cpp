@@ -21,23 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kMuch = std::int64_t(1) << 40;  // more than any limit is worth
 
-void addLimits(CLI::App& command, lang::Limits& limits) {
-  const auto limit = [&](const char* name, auto& target, std::int64_t high, const char* help) {
-    const auto set = [&target](std::int64_t n) { target = std::decay_t<decltype(target)>(n); };
-    addInteger(command, name, 1, high, set, fmt::format("{} ({})", help, target))
-        ->group("Limits on hostile scenes");
-  };
-  limit("--max-include-depth", limits.includeDepth, 10'000, "includes inside includes");
-  limit("--max-macro-depth", limits.macroDepth, 100'000, "macro calls inside macro calls");
-  limit("--max-loop-iterations", limits.loopIterations, kMuch, "turns of all loops together");
-  limit("--max-tokens", limits.expandedTokens, kMuch, "words read, each turn of a loop counted");
-  limit("--max-string-length", limits.stringLength, kMuch, "bytes of one string");
-  limit("--max-blocks", limits.blocks, kMuch, "blocks of the scene, copies counted");
-  limit("--max-array-elements", limits.arrayElements, kMuch, "elements of all arrays together");
-  limit("--max-errors", limits.errors, 100'000, "errors after which reading stops");
-  limit("--max-nesting", limits.nesting, 10'000, "blocks and brackets inside each other");
-}
-
 bool isName(const std::string& word) {
   if (word.empty() || std::isdigit(static_cast<unsigned char>(word[0]))) return false;
   for (const unsigned char c : word)
@@ -92,6 +75,23 @@ void addPluginPath(CLI::App& command, std::vector<std::string>& paths) {
       ->type_name("DIR");
 }
 
+void addLimits(CLI::App& command, lang::Limits& limits) {
+  const auto limit = [&](const char* name, auto& target, std::int64_t high, const char* help) {
+    const auto set = [&target](std::int64_t n) { target = std::decay_t<decltype(target)>(n); };
+    addInteger(command, name, 1, high, set, fmt::format("{} ({})", help, target))
+        ->group("Limits on hostile scenes");
+  };
+  limit("--max-include-depth", limits.includeDepth, 10'000, "includes inside includes");
+  limit("--max-macro-depth", limits.macroDepth, 100'000, "macro calls inside macro calls");
+  limit("--max-loop-iterations", limits.loopIterations, kMuch, "turns of all loops together");
+  limit("--max-tokens", limits.expandedTokens, kMuch, "words read, each turn of a loop counted");
+  limit("--max-string-length", limits.stringLength, kMuch, "bytes of one string");
+  limit("--max-blocks", limits.blocks, kMuch, "blocks of the scene, copies counted");
+  limit("--max-array-elements", limits.arrayElements, kMuch, "elements of all arrays together");
+  limit("--max-errors", limits.errors, 100'000, "errors after which reading stops");
+  limit("--max-nesting", limits.nesting, 10'000, "blocks and brackets inside each other");
+}
+
 void addSceneOptions(CLI::App& command, SceneInput& input) {
   command.add_option("scene", input.file, "the scene text")->required()->type_name("FILE");
   addList(command, "-D,--define", input.definitions, "declare a name before the scene is read")
@@ -102,7 +102,6 @@ void addSceneOptions(CLI::App& command, SceneInput& input) {
   command.add_flag("--sandbox", input.sandbox,
                    "refuse includes from outside the scene's folder and the include folders");
   command.add_flag("--werror", input.werror, "treat warnings as errors");
-  addLimits(command, input.limits);
 }
 
 Registry loadRegistry(const std::vector<std::string>& extraPaths) {

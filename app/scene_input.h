@@ -22,8 +22,11 @@ struct SceneInput {
   lang::Limits limits;
 };
 
-/// The positional SCENE and all options above. `input` must outlive the parsing.
+/// The positional SCENE and the options above but the limits. `input` must outlive the parsing.
 void addSceneOptions(CLI::App& command, SceneInput& input);
+/// --max-...: what a hostile text may cost. Best added last: they are the last that people look
+/// for.
+void addLimits(CLI::App& command, lang::Limits& limits);
 /// Only --plugin-path.
 void addPluginPath(CLI::App& command, std::vector<std::string>& paths);
 

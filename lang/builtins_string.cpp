@@ -12,6 +12,11 @@ namespace {
 /// Widest field and most digits that str() lays out: a double has no more than 1074 of them.
 constexpr int kWidest = 1100;
 
+/// Shorter strings are not counted; array elements and names bound them.
+constexpr std::size_t kShortText = 256;
+/// All strings together may take this many times the length of the longest one that is allowed.
+constexpr std::size_t kLongestTexts = 256;
+
 /// C's "%*.*f": negative width fills with zeros, negative precision means 6.
 std::string layout(double x, int width, int digits) {
   const bool zeros = width < 0;
@@ -28,7 +33,13 @@ Datum limited(const Call& c, std::string s) {
   if (s.size() > most)
     c.context.reporter.stop(c.span, "this string is longer than " + std::to_string(most) +
                                         " characters: --max-string-length raises the limit");
-  return textDatum(std::move(s));
+  if (s.size() < kShortText) return textDatum(std::move(s));
+  const Share share(c.context.longText, std::int64_t(s.size()));
+  if (*c.context.longText > std::int64_t(kLongestTexts * most))
+    c.context.reporter.stop(c.span, "the strings of this scene take more than " +
+                                        std::to_string(kLongestTexts * most) +
+                                        " characters: --max-string-length raises the limit");
+  return TextPtr(new std::string(std::move(s)), [share](const std::string* p) { delete p; });
 }
 
 Datum concat(const Call& c) {

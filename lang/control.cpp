@@ -20,6 +20,22 @@ std::uint32_t Directives::endOf(std::uint32_t part) {
 void Directives::jumpBehind(std::uint32_t index) {
   Frame& f = stream_.frame();
   f.at = std::min(index + 1, f.end);
+  stream_.drop();
+}
+
+/// After a mistake in the head of a construct: goes on behind it, if its text is still being read.
+void Directives::abandon(std::uint32_t first, std::size_t frames) {
+  while (stream_.frames().size() > frames) stream_.pop();
+  if (stream_.frames().size() == frames) jumpBehind(endOf(first));
+}
+
+/// Does this part belong to the innermost open construct? Not if it is unpaired (the lexer has
+/// complained) or stands in the middle of a head, as in `#if (1 #else`.
+bool Directives::isOpen(std::uint32_t part) {
+  const Frame& f = stream_.frame();
+  const Token& last = f.token(endOf(part));
+  return !f.open.empty() && last.kind == Token::Kind::directive && *last.text == "end" &&
+         last.jump == f.open.back().first;
 }
 
 void Directives::countLoop(const Span& span) {
@@ -70,9 +86,7 @@ void Directives::ifBranch(const Token& directive) {
     try {
       isTaken = isTaken || holds(word);
     } catch (const SyntaxError&) {  // neither branch can be meant
-      while (stream_.frames().size() > depth) stream_.pop();
-      jumpBehind(endOf(part));
-      return;
+      return abandon(part, depth);
     }
     if (stream_.frames().size() != depth) return;
     if (isTaken) {
@@ -91,19 +105,24 @@ void Directives::ifBranch(const Token& directive) {
 // '#while' condition … '#end'
 void Directives::whileLoop(const Token&) {
   const std::uint32_t first = here();
-  if (testWhile(first))
+  const std::size_t depth = stream_.frames().size();
+  const bool isTrue = testWhile(first);
+  if (stream_.frames().size() != depth) return;
+  if (isTrue)
     stream_.frame().open.push_back({OpenDirective::Kind::whileLoop, first});
   else
     jumpBehind(endOf(first));
 }
 
 bool Directives::testWhile(std::uint32_t first) {
+  const std::size_t depth = stream_.frames().size();
   stream_.frame().at = first + 1;
   countLoop(stream_.frame().token(first).span);
   try {
     const auto x = parser_.expressions().condition();
     return x && isTrue(*x);
   } catch (const SyntaxError&) {
+    abandon(first, depth);
     return false;
   }
 }
@@ -111,6 +130,7 @@ bool Directives::testWhile(std::uint32_t first) {
 // '#for' '(' name ',' first ',' last [ ',' step ] ')' … '#end'
 void Directives::forLoop(const Token& directive) {
   const std::uint32_t first = here();
+  const std::size_t depth = stream_.frames().size();
   try {
     const Span open = stream_.peekRaw().span;
     if (!stream_.acceptRaw("(")) parser_.expressions().unexpected("'(' after #for");
@@ -132,6 +152,7 @@ void Directives::forLoop(const Token& directive) {
     }
     if (given < 2) parser_.expressions().unexpected("',' and the bounds: #for (I, 1, 10)");
     parser_.expressions().expect(")", open, "(");
+    if (stream_.frames().size() != depth) return;
     OpenDirective loop{OpenDirective::Kind::forLoop, first, context_.symbols.local(name.text),
                        bounds[1], bounds[2]};
     *loop.counter = {Numbers(bounds[0]), name.span};
@@ -140,7 +161,7 @@ void Directives::forLoop(const Token& directive) {
     else
       jumpBehind(endOf(first));
   } catch (const SyntaxError&) {
-    jumpBehind(endOf(first));
+    abandon(first, depth);
   }
 }
 
@@ -160,23 +181,21 @@ bool Directives::isWithin(const OpenDirective& loop, const Span& span) {
 // '#switch' condition { ('#case' '(' x ')' | '#range' '(' low ',' high ')') … } [ '#else' … ] '#end'
 void Directives::choice(const Token&) {
   const std::uint32_t first = here();
+  const std::size_t depth = stream_.frames().size();
   const auto& tokens = stream_.frame().list->tokens;
-  std::optional<double> x;
   try {
-    x = parser_.expressions().condition();
-  } catch (const SyntaxError&) {
-  }
-  for (std::uint32_t part = x ? tokens[first].jump : endOf(first);; part = tokens[part].jump) {
-    jumpBehind(part);
-    if (tokens[part].kind != Token::Kind::directive || *tokens[part].text == "end") return;
-    bool matches = false;
-    try {
-      matches = caseMatches(*tokens[part].text, *x);
-    } catch (const SyntaxError&) {
+    const auto x = parser_.expressions().condition();
+    for (std::uint32_t part = x ? tokens[first].jump : endOf(first);; part = tokens[part].jump) {
+      if (stream_.frames().size() != depth) return;
+      jumpBehind(part);
+      if (tokens[part].kind != Token::Kind::directive || *tokens[part].text == "end") return;
+      if (!caseMatches(*tokens[part].text, *x)) continue;
+      if (stream_.frames().size() == depth)
+        stream_.frame().open.push_back({OpenDirective::Kind::choice, first});
+      return;
     }
-    if (!matches) continue;
-    stream_.frame().open.push_back({OpenDirective::Kind::choice, first});
-    return;
+  } catch (const SyntaxError&) {
+    abandon(first, depth);
   }
 }
 
@@ -207,7 +226,7 @@ bool Directives::caseMatches(const std::string& word, double x) {
 void Directives::nextPart(const Token& directive) {
   const std::uint32_t part = here();
   auto& open = stream_.frame().open;
-  if (open.empty() || directive.jump == part) return;  // unpaired: complained about by the lexer
+  if (!isOpen(part)) throw SyntaxError{};  // already complained about: skips what follows it
   if (open.back().kind != OpenDirective::Kind::choice) {
     open.pop_back();
     jumpBehind(endOf(part));
@@ -220,15 +239,15 @@ void Directives::nextPart(const Token& directive) {
   caseMatches(*directive.text, 0);
 }
 
-void Directives::end(const Token& directive) {
+void Directives::end(const Token&) {
   const std::uint32_t at = here();
-  auto& open = stream_.frame().open;
-  if (open.empty() || directive.jump == at) return;
-  OpenDirective top = open.back();
-  const auto isAround = [&] { return stream_.frame().open.size() > 0; };
+  if (!isOpen(at)) return;
+  const std::size_t depth = stream_.frames().size();
+  const OpenDirective top = stream_.frame().open.back();
   bool again = false;
   if (top.kind == OpenDirective::Kind::whileLoop) {
     again = testWhile(top.first);
+    if (stream_.frames().size() != depth) return;
   } else if (top.kind == OpenDirective::Kind::forLoop) {
     if (Numbers* n = std::get_if<Numbers>(&top.counter->value)) n->v[0] += top.step;
     again = isWithin(top, stream_.frame().token(top.first).span);
@@ -243,7 +262,7 @@ void Directives::end(const Token& directive) {
       jumpBehind(i);
     }
   }
-  if (again || !isAround()) return;
+  if (again) return;
   stream_.frame().open.pop_back();
   jumpBehind(at);
 }

@@ -123,6 +123,8 @@ Affine Parser::transformBlock() {
         context_.reporter.error(t.span, "this transform has no inverse");
       else
         all = all.inverse();
+    } else if (t.kind == Token::Kind::name) {
+      expressions_.unexpected("translate, rotate, scale, matrix, transform, inverse or '}'");
     } else {
       expressions_.expect("}", ahead.span, "{");
     }
@@ -177,9 +179,8 @@ Parser::Declared Parser::array() {
       throw SyntaxError{};
     }
     const double wanted = double(total) * std::trunc(n->v[0]);
-    context_.elements += wanted;
-    if (!(context_.elements <= double(context_.options.limits.arrayElements)))
-      context_.reporter.stop(size.span, "the arrays of this scene have more than " +
+    if (!(wanted <= double(context_.options.limits.arrayElements)))
+      context_.reporter.stop(size.span, "this array has more than " +
                                             std::to_string(context_.options.limits.arrayElements) +
                                             " elements: --max-array-elements raises the limit");
     a->sizes.push_back(int(n->v[0]));
@@ -187,11 +188,17 @@ Parser::Declared Parser::array() {
     expressions_.expect("]", open, "[");
   }
   const bool isOpenEnded = a->sizes.empty();
+  a->share = Share(context_.elements, isOpenEnded ? 0 : std::int64_t(total));
+  context_.checkElements(word.span);
   if (!isOpenEnded) a->data.resize(total);
   if (isOpenEnded && !stream_.peekRaw().is("{"))
     expressions_.unexpected("'[' and a size, or '{' and the elements, after 'array'");
   if (stream_.peekRaw().is("{")) elements(*a, 0, 0);
-  if (isOpenEnded) a->sizes.push_back(int(a->data.size()));
+  if (isOpenEnded) {
+    a->sizes.push_back(int(a->data.size()));
+    a->share = Share(context_.elements, std::int64_t(a->data.size()));
+    context_.checkElements(word.span);
+  }
   return {ArrayPtr(std::move(a)), context_.sources.join(word.span, stream_.last())};
 }
 
@@ -215,7 +222,6 @@ void Parser::elements(Array& array, std::size_t level, std::size_t first) {
     } else {
       Datum element = value(ExpressionParser::Place::setting).value;
       if (isOpenEnded) {
-        context_.elements += 1;
         array.data.push_back(std::move(element));
       } else {
         array.data[next] = std::move(element);

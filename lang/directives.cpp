@@ -27,6 +27,7 @@ Directives::Handler Directives::handlerOf(const std::string& word) {
 
 void Directives::obey(const Token& directive) {
   const Nested nested(context_, directive.span);
+  const int level = stream_.braces();
   const auto handler = handlerOf(*directive.text);
   try {
     if (handler) {
@@ -34,34 +35,36 @@ void Directives::obey(const Token& directive) {
       return;
     }
     static const std::vector<std::string> known = {
-        "declare", "local", "undef", "if", "ifdef", "ifndef", "while", "for", "switch", "else",
-        "elseif", "case", "range", "end", "break", "macro", "include", "debug", "warning", "error",
-        "version"};
+        "#declare", "#local", "#undef", "#if",    "#ifdef", "#ifndef", "#while",
+        "#for",     "#switch", "#else", "#elseif", "#case", "#range",  "#end",
+        "#break",   "#macro",  "#include", "#debug", "#warning", "#error", "#version"};
     const char* instead = insteadOf("#" + *directive.text);
     context_.reporter.syntaxError(directive.span, "no directive is called '#" + *directive.text +
                                                       "'" +
                                                       (instead ? std::string(": ") + instead
-                                                               : didYouMean(*directive.text, known)));
+                                                               : didYouMean("#" + *directive.text, known)));
   } catch (const SyntaxError&) {
-    skipStatement();
+    skipStatement(directive, level);
   }
 }
 
 /// After a mistake: to the ';' that ends it, to the next directive or to the next line.
-void Directives::skipStatement() {
-  const Span from = stream_.last();
-  int depth = 0;
+void Directives::skipStatement(const Token& directive, int level) {
+  const Span& last = stream_.last();
+  const bool hasTaken = last.file == directive.span.file && last.via == directive.span.via &&
+                        last.begin > directive.span.begin;
+  const Span from = hasTaken ? last : directive.span;
   for (;;) {
     const Token t = stream_.peekRaw();
+    const bool isOutside = stream_.braces() <= level;
     if (t.kind == Token::Kind::end || t.kind == Token::Kind::directive) return;
     if (t.span.via != from.via || t.span.file != from.file) return;
     const bool isNewLine = context_.sources.lineOf(t.span.file, t.span.begin) >
                            context_.sources.lineOf(from.file, from.begin);
-    if (depth == 0 && (isNewLine || t.is("}"))) return;
-    if (t.is("{")) ++depth;
-    if (t.is("}")) --depth;
+    if (isOutside && (isNewLine || t.is("}"))) return;
     stream_.nextRaw();
-    if (depth == 0 && t.is(";")) return;
+    if (isOutside && t.is(";")) return;
+    if (t.is("}") && stream_.braces() <= level) return;
   }
 }
 
@@ -77,12 +80,13 @@ Token Directives::plainName(const std::string& before) {
 Token Directives::newName(const Token& directive) {
   const Token name = plainName("#" + *directive.text);
   const std::string& word = *name.text;
+  if (context_.symbols.find(name.text)) return name;
   if (const char* instead = insteadOf(word))
     context_.reporter.syntaxError(name.span, "'" + word + "' is a word of POV-Ray's: " + instead);
   const bool isTaken = isExpressionWord(word) || isTransformWord(word) ||
                        parser_.words().opensBlock(word);
-  // Parameters of macros may be called like u and v, and then be assigned to.
-  if (isTaken && !context_.symbols.find(name.text) && word != "clock")
+  // (Parameters of macros may be called like u and v, and then be assigned to: found above.)
+  if (isTaken && word != "clock")
     context_.reporter.syntaxError(name.span, "'" + word + "' is a word of the language and cannot "
                                                           "be declared; a name with a capital "
                                                           "letter never is");
@@ -156,7 +160,10 @@ void Directives::assignElement(const Token& directive, const Token& name) {
   const auto at = elementAt(context_, **array, indices, spans);
   if (!at) return;
   // Arrays are values: what shares this one keeps the old element. Nobody else: no copy.
-  if (array->use_count() > 1) cell->value = std::make_shared<const Array>(**array);
+  if (array->use_count() > 1) {
+    cell->value = std::make_shared<const Array>(**array);
+    context_.checkElements(name.span);
+  }
   const_cast<Array&>(*std::get<ArrayPtr>(cell->value)).data[*at] = std::move(value);
 }
 
@@ -247,7 +254,7 @@ bool Directives::expand(const Token& name) {
                          (m->parameters.size() == 1 ? " argument" : " arguments") + ", found " +
                          std::to_string(cells.size()))
         .notes.push_back({m->declared, "it is declared here"});
-    throw SyntaxError{};
+    return true;  // as if it were empty
   }
   Frame frame{Frame::Kind::macro, m->list, m->begin, m->end,
               context_.sources.expand(Expansion::Kind::macro, *name.text, call), -1};

@@ -45,6 +45,8 @@ class Directives {
   std::uint32_t here() { return stream_.frame().at - 1; }
   std::uint32_t endOf(std::uint32_t part);
   void jumpBehind(std::uint32_t index);
+  void abandon(std::uint32_t first, std::size_t frames);
+  bool isOpen(std::uint32_t part);
 
   // Macros and texts.
   void macro(const Token& directive);
@@ -59,7 +61,7 @@ class Directives {
   void version(const Token& directive);
   std::optional<std::string> text(const Token& directive, Span& span);
 
-  void skipStatement();
+  void skipStatement(const Token& directive, int level);
 
   Context& context_;
   TokenStream& stream_;

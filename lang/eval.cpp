@@ -248,7 +248,7 @@ std::optional<std::size_t> elementAt(Context& context, const Array& array,
                                      const std::vector<Span>& spans) {
   if (indices.size() != array.sizes.size()) {
     context.reporter.error(spans[0], "this array has " + std::to_string(array.sizes.size()) +
-                                         " dimensions, found " + std::to_string(indices.size()) +
+                                         (array.sizes.size() == 1 ? " dimension" : " dimensions") + ", found " + std::to_string(indices.size()) +
                                          (indices.size() == 1 ? " index" : " indices"));
     return {};
   }

@@ -143,11 +143,13 @@ void ExpressionParser::unexpected(const std::string& expected) {
 void ExpressionParser::undeclared(const Token& name, const std::string& role) {
   std::vector<std::string> known = context_.symbols.names();
   for (const std::string& b : builtinNames()) known.push_back(b);
+  std::string hint = didYouMean(*name.text, known);
+  const std::string file = context_.declaredIn ? context_.declaredIn(*name.text) : "";
+  if (!file.empty()) hint = ": it is declared in '" + file + "', which is not included";
   const char* instead = insteadOf(*name.text);
-  context_.reporter.error(
-      name.span, instead ? "'" + *name.text + "' is a word of POV-Ray's: " + instead
-                         : "no " + role + " is called '" + *name.text + "'" +
-                               didYouMean(*name.text, known));
+  context_.reporter.error(name.span,
+                          instead ? "'" + *name.text + "' is a word of POV-Ray's: " + instead
+                                  : "no " + role + " is called '" + *name.text + "'" + hint);
 }
 
 // ---------------------------------------------------------------- building
@@ -184,7 +186,7 @@ ExprPtr ExpressionParser::node(Expr::Kind kind, const Span& span, std::string wo
 // The next token as an operator. In a declaration the next directive of the same text ends the
 // expression: a missing ';' must not make `#declare B` run before `#declare A` is done.
 const Token& ExpressionParser::operatorAhead() {
-  static const Token nothing;
+  static const Token nothing;  // no sign
   if (mode_.endsAtDirective) {
     const Token raw = stream_.peekRaw();
     if (isStatement(raw) && raw.span.via == mode_.via) return nothing;
@@ -234,8 +236,9 @@ ExprPtr ExpressionParser::product() {
 
 ExprPtr ExpressionParser::chain(Level operand, std::initializer_list<const char*> signs) {
   ExprPtr left = (this->*operand)();
-  while (left->mayCount()) {
-    const Token& ahead = operatorAhead();
+  for (;;) {
+    // Behind a string or a block no operator can follow, so what stands there may have to wait.
+    const Token ahead = left->mayCount() ? operatorAhead() : stream_.peekRaw();
     if (ahead.kind != Token::Kind::sign ||
         std::none_of(signs.begin(), signs.end(), [&](const char* s) { return ahead.is(s); }))
       break;
@@ -400,15 +403,15 @@ ExprPtr ExpressionParser::call(const Token& name, const Datum& symbol) {
   if (!stream_.accept("(")) unexpected("'(' after the function '" + *name.text + "'");
   if (builtin && !builtin->isPure && function_)
     context_.reporter.error(name.span, *name.text + "() cannot stand inside a function");
-  const With mode(*this, {});
+  // Where no argument is a vector, '<' can only compare, even if a comma was left out.
+  const bool takesVectors = builtin && std::string_view(builtin->signature).find('v') !=
+                                           std::string_view::npos;
+  const With mode(*this, {!takesVectors, false, -1});
   std::vector<ExprPtr> args;
   while (!stream_.peek().is(")")) {
     args.push_back(expression());
     if (!stream_.accept(",") && !begins(stream_.peek())) break;
   }
-  const Token& after = stream_.peek();
-  for (const char* sign : {"<", "=", ">", "<=", ">=", "!=", "&", "|"})
-    if (after.is(sign)) unexpected("')' or ',' (a comparison stands in parentheses of its own)");
   expect(")", open, "(");
   ExprPtr e = node(builtin ? Expr::Kind::builtin : Expr::Kind::invoke, name.span, *name.text,
                    std::move(args));

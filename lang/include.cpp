@@ -45,8 +45,7 @@ Includes::Includes(Context& context, const std::string& sceneFile)
 
 Includes::File Includes::add(const std::string& name, std::string text) {
   const int file = context_.sources.add(name, std::move(text));
-  lists_.push_back(
-      tokenise(file, context_.sources, context_.names, context_.reporter.diagnostics()));
+  lists_.push_back(tokenise(file, context_.sources, context_.names, context_.reporter));
   return {file, &lists_.back()};
 }
 
@@ -72,6 +71,25 @@ std::string Includes::find(const std::string& name, int askingFile,
     const std::string path = (folder / wanted).lexically_normal().string();
     if (isFile(path)) return path;
     if (std::find(tried.begin(), tried.end(), path) == tried.end()) tried.push_back(path);
+  }
+  return {};
+}
+
+std::string Includes::declaredIn(const std::string& name) const {
+  constexpr std::uintmax_t kLargest = 1 << 20;  // a hint is not worth reading more
+  for (const std::string& folder : context_.options.includePaths) {
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+      const fs::path& path = entry->path();
+      if (path.extension() != ".inc" || !isFile(path) || fs::file_size(path, error) > kLargest)
+        continue;
+      const auto text = readFile(path.string());
+      for (const char* directive : {"#declare ", "#macro "})
+        if (text && (text->find(directive + name + " ") != std::string::npos ||
+                     text->find(directive + name + "(") != std::string::npos))
+          return path.filename().string();
+    }
   }
   return {};
 }

@@ -25,6 +25,8 @@ class Includes {
   /// Where the name is found: beside the text that asks, in the working directory, then in the
   /// include paths. "" if nowhere; `tried` gets every path.
   std::string find(const std::string& name, int askingFile, std::vector<std::string>& tried) const;
+  /// The file beside an include path that declares a name, or "": for a hint.
+  std::string declaredIn(const std::string& name) const;
   /// With --sandbox: lies below the scene's folder or an include path?
   bool isAllowed(const std::string& path) const;
 

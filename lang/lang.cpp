@@ -5,6 +5,8 @@
 #include "lang/directives.h"
 #include "lang/hash.h"
 
+#include <new>
+
 namespace vestige::lang {
 namespace {
 
@@ -27,6 +29,7 @@ class Reader {
       const std::string path = includes_.find(file, 0, tried);
       return !path.empty() && includes_.isAllowed(path);
     };
+    context_.declaredIn = [this](const std::string& name) { return includes_.declaredIn(name); };
   }
 
   void read(const std::string& name, const std::string& text) {
@@ -37,6 +40,8 @@ class Reader {
         push(includes_.add("-D " + d->first, "#declare " + d->first + " = " + d->second + ";"));
       parser_.scene(result_.scene);
     } catch (const Stop&) {
+    } catch (const std::bad_alloc&) {
+      result_.diagnostics.error({}, "not enough memory to read this scene");
     }
   }
 

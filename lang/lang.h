@@ -25,7 +25,7 @@ struct Limits {
   int errors = 20;  ///< then parsing stops
   int nesting = 256;                        ///< of braces, parentheses, calls
   std::int64_t blocks = 2'000'000;          ///< copies included
-  std::size_t arrayElements = 10'000'000;   ///< of the whole run
+  std::size_t arrayElements = 4'000'000;    ///< alive at one time
 };
 
 struct Options {

@@ -43,6 +43,7 @@ class Lexer {
     t.kind = kind;
     t.span = {file_, std::uint32_t(begin), std::uint32_t(at_), -1};
     t.text = names_.intern(std::move(text));
+    if (kind == Token::Kind::sign) t.sign = signCode(t.text->c_str());
     return t;
   }
   Token bad(std::size_t begin, std::string what) {
@@ -98,6 +99,10 @@ class Lexer {
 
   Token word(std::size_t begin) {
     while (isWordPart(peek())) ++at_;
+    if (static_cast<unsigned char>(peek()) >= 0x80) {
+      while (isWordPart(peek()) || static_cast<unsigned char>(peek()) >= 0x80) ++at_;
+      return bad(begin, "a name is made of the letters a to z and A to Z, digits and '_'");
+    }
     return token(Token::Kind::name, begin, text_.substr(begin, at_ - begin));
   }
 
@@ -226,7 +231,7 @@ bool continues(const std::string& word) {
 }
 
 /// Links each construct's parts. Skipped text is paired too, as POV-Ray does.
-void pair(TokenList& list, Diagnostics& diagnostics) {
+void pair(TokenList& list, Reporter& reporter) {
   struct Open {
     std::uint32_t first, last;
   };
@@ -242,9 +247,8 @@ void pair(TokenList& list, Diagnostics& diagnostics) {
     } else if (*t.text == "end" || continues(*t.text)) {
       const bool wantsSwitch = *t.text == "case" || *t.text == "range";
       if (open.empty() || (wantsSwitch && !isSwitch(open.back()))) {
-        diagnostics.error(t.span, "#" + *t.text + " without " +
+        reporter.error(t.span, "#" + *t.text + " without " +
                                       (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
-        list.balanced = false;
         continue;
       }
       tokens[open.back().last].jump = i;
@@ -256,17 +260,16 @@ void pair(TokenList& list, Diagnostics& diagnostics) {
   }
   for (const Open& o : open) {
     tokens[o.last].jump = std::uint32_t(tokens.size() - 1);
-    diagnostics.error(tokens[o.first].span, "#" + *tokens[o.first].text + " has no #end");
-    list.balanced = false;
+    reporter.error(tokens[o.first].span, "#" + *tokens[o.first].text + " has no #end");
   }
 }
 
 }  // namespace
 
-TokenList tokenise(int file, const Sources& sources, Names& names, Diagnostics& diagnostics) {
+TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter) {
   TokenList list;
   list.tokens = Lexer(file, sources, names).run();
-  pair(list, diagnostics);
+  pair(list, reporter);
   return list;
 }
 

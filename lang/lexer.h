@@ -6,6 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "lang/report.h"
 #include "lang/source.h"
 
 namespace vestige::lang {
@@ -19,6 +20,12 @@ class Names {
   std::unordered_set<std::string> pool_;
 };
 
+/// One or two characters as a number; 0 is no sign's.
+constexpr std::uint16_t signCode(const char* s) {
+  const auto first = static_cast<unsigned char>(s[0]);
+  return std::uint16_t(first + (first ? static_cast<unsigned char>(s[1]) * 256 : 0));
+}
+
 struct Token {
   enum class Kind : std::uint8_t {
     end,        ///< of a text
@@ -30,6 +37,7 @@ struct Token {
     bad,        ///< `text`: what is wrong with it; complained about only where it is read
   };
   Kind kind = Kind::end;
+  std::uint16_t sign = 0;  ///< of punctuation: signCode() of it, for quick comparison
   Span span;
   const std::string* text = nullptr;
   double number = 0;
@@ -37,18 +45,17 @@ struct Token {
   /// #if -> #elseif -> #else -> #end. Of an #end: of what it closes.
   std::uint32_t jump = 0;
 
-  bool is(const char* sign) const { return kind == Kind::sign && *text == sign; }
+  bool is(const char* s) const { return sign == signCode(s); }
   bool isWord(const char* word) const { return kind == Kind::name && *text == word; }
 };
 
 /// All tokens of one text, the last of kind `end`.
 struct TokenList {
   std::vector<Token> tokens;
-  bool balanced = true;  ///< every #if, #for, #macro, ... has its #end
 };
 
 /// Never fails: what is wrong becomes a `bad` token, an unpaired #end or #if a diagnostic.
-TokenList tokenise(int file, const Sources& sources, Names& names, Diagnostics& diagnostics);
+TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter);
 
 /// "'light'", "number 3", "the end of the file": a token as messages name it.
 std::string describe(const Token& token, const Sources& sources);

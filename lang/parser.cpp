@@ -8,13 +8,15 @@ namespace vestige::lang {
 
 // scene := { block }
 void Parser::scene(SceneDesc& scene) {
-  while (stream_.peek().kind != Token::Kind::end) {
+  for (;;) {
     const auto before = stream_.taken();
+    const int level = stream_.braces();
     try {
+      if (stream_.peek().kind == Token::Kind::end) return;
       statement(scene);
     } catch (const SyntaxError&) {
       if (stream_.taken() == before) stream_.nextRaw();
-      skipToStatement();
+      skipToStatement(level);
     }
   }
 }
@@ -150,8 +152,8 @@ bool Parser::headName(const std::string& kind, Head& head) {
 void Parser::unknownPlugin(const std::string& kind, const Token& found) {
   std::vector<std::string> known = words_.plugins(kind);
   std::sort(known.begin(), known.end());
-  std::string list = "one of " + orList(known);
-  if (found.kind != Token::Kind::name) expressions_.unexpected("which " + kind + ": " + list);
+  const std::string list = orList(known);
+  if (found.kind != Token::Kind::name) expressions_.unexpected(list + " after '" + kind + "'");
   const std::vector<std::string> plugins = known;
   for (const std::string& name : context_.symbols.names()) known.push_back(name);
   const std::string near = didYouMean(*found.text, known);
@@ -169,38 +171,37 @@ void Parser::unknownPlugin(const std::string& kind, const Token& found) {
 // ---------------------------------------------------------------- items
 // items := { item [','] } '}'
 void Parser::items(BlockBuilder& b, const Span& brace) {
-  bool afterComma = false;
+  const int level = stream_.braces();
   for (;;) {
-    const Token t = stream_.peek();
-    if (stream_.accept("}")) return;
-    if (t.kind == Token::Kind::end) {
-      b.forgiveMissing();
-      ++assumedBraces_;
-      try {
-        expressions_.expect("}", brace, "{");
-      } catch (const SyntaxError&) {
-      }
-      return;
-    }
-    if (stream_.accept(",")) {
-      afterComma = true;
-      continue;
-    }
     const auto before = stream_.taken();
     try {
-      if (item(b, std::exchange(afterComma, false)) == Next::closed) return;
+      if (stream_.accept("}")) return;
+      if (stream_.peek().kind == Token::Kind::end) return neverClosed(b, brace);
+      const bool afterComma = stream_.accept(",");
+      if (item(b, afterComma) == Next::closed) return;
     } catch (const SyntaxError&) {
       b.forgiveMissing();
       if (stream_.taken() == before && !stream_.peekRaw().is("}")) stream_.nextRaw();
-      skipToItem(b);
+      skipToItem(b, level);
     }
+  }
+}
+
+void Parser::neverClosed(BlockBuilder& b, const Span& brace) {
+  b.forgiveMissing();
+  ++assumedBraces_;
+  try {
+    expressions_.expect("}", brace, "{");
+  } catch (const SyntaxError&) {  // nothing is left to skip
   }
 }
 
 // item := value | parameter value | transform | block | name
 Parser::Next Parser::item(BlockBuilder& b, bool afterComma) {
   const Token t = stream_.peek();
-  if (isValue(b, t, afterComma)) {
+  if (t.is("}") || t.is(",")) {  // POV-Ray is lax about commas
+    return Next::more;
+  } else if (isValue(b, t, afterComma)) {
     positional(b);
   } else if (t.kind != Token::Kind::name) {
     expressions_.unexpected("'}' or a parameter of '" + b.title() + "'");
@@ -233,7 +234,8 @@ bool Parser::isValue(const BlockBuilder& b, const Token& t, bool afterComma) con
   if (isTransformWord(*t.text) || words_.opensBlock(*t.text)) return false;
   const Cell cell = context_.symbols.find(t.text);
   if (cell && std::holds_alternative<Affine>(cell->value)) return false;
-  return expressions_.begins(t) && !declaredBlock(t);
+  const bool isMeant = afterComma && next && !cell && !insteadOf(*t.text);  // misspelt, perhaps
+  return (expressions_.begins(t) && !declaredBlock(t)) || isMeant;
 }
 
 // value := expression                              in the order of the schema's positional rows
@@ -384,34 +386,35 @@ void Parser::unknownItem(BlockBuilder& b, const Token& t) {
 }
 
 // ---------------------------------------------------------------- going on after an error
-/// Takes tokens up to one that satisfies `stopsAt` outside all braces that are opened on the way;
-/// directives are obeyed, so that an #end finds its #if.
+/// Takes tokens up to one that satisfies `stopsAt` outside all braces beyond `level`; directives are
+/// obeyed, so that an #end finds its #if.
 template <class StopsAt>
-void Parser::skip(StopsAt stopsAt, bool stopsAfterBraces) {
-  int depth = 0;
+void Parser::skip(int level, StopsAt stopsAt, bool stopsAfterBraces) {
   for (;;) {
     const Token t = stream_.peekRaw();
+    const bool isOutside = stream_.braces() <= level;
     if (t.kind == Token::Kind::end) return;
     if (t.kind == Token::Kind::directive) {
-      if (depth == 0) return;
+      if (isOutside) return;
       stream_.onDirective(stream_.nextRaw());
       continue;
     }
-    if (depth == 0 && stopsAt(t)) return;
-    if (t.is("{")) ++depth;
-    if (t.is("}")) --depth;
+    if (isOutside && stopsAt(t)) return;
     stream_.nextRaw();
-    if (t.is("}") && depth <= 0 && stopsAfterBraces) return;
+    if (t.is("}") && stream_.braces() <= level && stopsAfterBraces) return;
   }
 }
 
-void Parser::skipToStatement() {
-  skip([&](const Token& t) { return t.kind == Token::Kind::name && words_.opensBlock(*t.text); },
-       true);
+void Parser::skipToStatement(int level) {
+  skip(
+      level,
+      [&](const Token& t) { return t.kind == Token::Kind::name && words_.opensBlock(*t.text); },
+      true);
 }
 
-void Parser::skipToItem(const BlockBuilder& b) {
+void Parser::skipToItem(const BlockBuilder& b, int level) {
   skip(
+      level,
       [&](const Token& t) {
         if (t.is("}")) return true;
         return t.kind == Token::Kind::name &&

@@ -22,8 +22,9 @@ class Parser {
   Declared value(ExpressionParser::Place place);
   ExpressionParser& expressions() { return expressions_; }
   const Vocabulary& words() const { return words_; }
-  /// After a syntax error: to the next word that begins something here.
-  void skipToStatement();
+  /// After a syntax error: to the next word that begins something outside the braces that are open
+  /// beyond `level`.
+  void skipToStatement(int level);
 
  private:
   /// The beginning of a block: which schema it has, and what it takes over.
@@ -46,9 +47,9 @@ class Parser {
   [[noreturn]] void unknownPlugin(const std::string& kind, const Token& found);
 
   void items(BlockBuilder& b, const Span& brace);
+  void neverClosed(BlockBuilder& b, const Span& brace);
   enum class Next { more, closed };
   Next item(BlockBuilder& b, bool afterComma);
-  void word(BlockBuilder& b, const Token& name);
   void positional(BlockBuilder& b);
   void setting(BlockBuilder& b, const Parameter& row);
   void blockSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
@@ -58,9 +59,9 @@ class Parser {
   void declaredItem(BlockBuilder& b, const Token& name, const Block& declared);
   void unknownItem(BlockBuilder& b, const Token& name);
   bool isValue(const BlockBuilder& b, const Token& t, bool afterComma) const;
-  void skipToItem(const BlockBuilder& b);
+  void skipToItem(const BlockBuilder& b, int level);
   template <class StopsAt>
-  void skip(StopsAt stopsAt, bool stopsAfterBraces);
+  void skip(int level, StopsAt stopsAt, bool stopsAfterBraces);
 
   Affine transform();
   Affine transformBlock();

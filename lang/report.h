@@ -44,7 +44,6 @@ class Reporter {
     error(span, message);
     throw Stop{};
   }
-  Diagnostics& diagnostics() { return diagnostics_; }
 
  private:
   static constexpr int kMostWarnings = 100;

@@ -41,12 +41,18 @@ const Token& TokenStream::peek() {
   return next_;
 }
 
-Token TokenStream::next() {
-  peek();
+Token TokenStream::take() {
   hasNext_ = false;
   last_ = next_.span;
   ++taken_;
+  if (next_.is("{")) ++braces_;
+  if (next_.is("}")) --braces_;
   return next_;
+}
+
+Token TokenStream::next() {
+  peek();
+  return take();
 }
 
 bool TokenStream::accept(const char* sign) {
@@ -61,6 +67,7 @@ bool TokenStream::acceptVectorEnd() {
   last_ = next_.span;
   last_.end = ++next_.span.begin;
   next_.text = context_.names.intern("=");
+  next_.sign = signCode("=");
   if (peekRaw(1).is("=")) advance();  // '>==' is '>' and '=='
   return true;
 }
@@ -79,10 +86,7 @@ Token TokenStream::peekRaw(int ahead) const {
 
 Token TokenStream::nextRaw() {
   if (!hasNext_) next_ = advance();
-  hasNext_ = false;
-  last_ = next_.span;
-  ++taken_;
-  return next_;
+  return take();
 }
 
 bool TokenStream::acceptRaw(const char* sign) {

@@ -63,11 +63,16 @@ class TokenStream {
   const Span& last() const { return last_; }
   /// Grows with every token taken: tells whether a step made any progress.
   std::int64_t taken() const { return taken_; }
+  /// '{' taken minus '}' taken: how deep the text stands.
+  int braces() const { return braces_; }
+  /// Forgets the token that was looked at: the frame is about to move.
+  void drop() { hasNext_ = false; }
 
  private:
   Token read(const Frame& frame, std::uint32_t i) const;
   /// Takes the next raw token from the frames, leaving those that are at their end.
   Token advance();
+  Token take();
 
   Context& context_;
   std::vector<Frame> frames_;
@@ -75,6 +80,7 @@ class TokenStream {
   Token next_;
   Span last_;
   std::int64_t taken_ = 0;
+  int braces_ = 0;
 };
 
 }  // namespace vestige::lang

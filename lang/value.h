@@ -41,10 +41,37 @@ using ArrayPtr = std::shared_ptr<const Array>;
 using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, Affine, FunctionPtr, ArrayPtr,
                            MacroPtr>;
 
+/// A share of a total that is given back when its owner goes: bounds what lives at one time.
+class Share {
+ public:
+  Share() = default;
+  Share(std::shared_ptr<std::int64_t> total, std::int64_t size)
+      : total_(std::move(total)), size_(size) {
+    *total_ += size_;
+  }
+  Share(const Share& other) : total_(other.total_), size_(other.size_) {
+    if (total_) *total_ += size_;
+  }
+  Share(Share&& other) noexcept : total_(std::move(other.total_)), size_(other.size_) {}
+  Share& operator=(Share other) noexcept {
+    std::swap(total_, other.total_);
+    std::swap(size_, other.size_);
+    return *this;
+  }
+  ~Share() {
+    if (total_) *total_ -= size_;
+  }
+
+ private:
+  std::shared_ptr<std::int64_t> total_;
+  std::int64_t size_ = 0;
+};
+
 /// Flat, the last index fastest.
 struct Array {
   std::vector<int> sizes;
   std::vector<Datum> data;  ///< monostate: not yet assigned
+  Share share = {};         ///< of the elements that may live
 };
 
 inline Datum textDatum(std::string s) { return std::make_shared<const std::string>(std::move(s)); }

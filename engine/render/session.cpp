@@ -18,6 +18,7 @@ constexpr int kTile = 16;  ///< pixels; small enough that a cancel is answered a
 constexpr int kDefaultSamples = 16;
 constexpr int kMaxPass = 16;  ///< samples a pixel in one pass: how coarse progress may be
 constexpr auto kTick = std::chrono::milliseconds(100);
+constexpr double kLeastTick = 0.05;  ///< seconds between two tellings of progress
 
 double now() {
   using namespace std::chrono;
@@ -175,9 +176,11 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
   const auto timeUp = [&] { return options.seconds > 0 && now() - start >= options.seconds; };
   RenderResult result{RenderEnd::finished, 0, 0, threads, {}};
 
+  double told = 0;  // when progress was last told: small pictures finish many passes a tick
   const auto report = [&](double share, int samples, const char* phase) {
-    if (!options.progress) return;
     const double elapsed = now() - start;
+    if (!options.progress || elapsed - told < kLeastTick) return;
+    told = elapsed;
     if (wanted == 0) share = std::min(1.0, elapsed / options.seconds);
     const double left = options.seconds > 0 ? options.seconds - elapsed : kInfinity;
     const double bySamples = wanted > 0 && share > 0 ? elapsed * (1 - share) / share : kInfinity;

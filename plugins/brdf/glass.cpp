@@ -60,8 +60,7 @@ class Glass final : public Brdf {
   };
 
   static Real eta(const ScatterPoint& p) noexcept {
-    const Real ior = p.inputs.real(kIor);
-    return p.inside ? ior : 1 / ior;
+    return interfaceEta(p.inputs.real(kIor), p.inside);
   }
 
   static Lobes lobes(const ScatterPoint& p) noexcept {

@@ -38,14 +38,14 @@ class Phong final : public Brdf {
   }
 
   Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Real n = p.inputs.real(kExponent);
+    const Real n = exponent(p);
     const Axis a = axis(p, side(toNext));
     return (n + 2) / (2 * kPi) * cosPower(a, toNext, n) * fraction(p, side(toNext));
   }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers r) const noexcept override {
-    const Real n = p.inputs.real(kExponent), reflect = reflectChance(p);
+    const Real n = exponent(p), reflect = reflectChance(p);
     if (!(reflect >= 0)) return std::nullopt;
     const Lobe lobe = r.lobe < reflect ? kReflected : kRefracted;
     const Axis a = axis(p, lobe);
@@ -65,7 +65,7 @@ class Phong final : public Brdf {
   }
 
   Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Real n = p.inputs.real(kExponent), reflect = reflectChance(p);
+    const Real n = exponent(p), reflect = reflectChance(p);
     if (!(reflect >= 0)) return 0;
     const Real chance = side(toNext) == kReflected ? reflect : 1 - reflect;
     return chance * (n + 1) / (2 * kPi) * cosPower(axis(p, side(toNext)), toNext, n);
@@ -75,7 +75,7 @@ class Phong final : public Brdf {
                                     ScatterNumbers r) const noexcept override {
     const Axis a = axis(p, r.lobe < reflectChance(p) ? kReflected : kRefracted);
     const Frame frame = Frame::around(a.direction);
-    const Around l = around(p.inputs.real(kExponent), r.u);
+    const Around l = around(exponent(p), r.u);
     const Vec3 toNext = frame.toWorld(l.direction);
     // The axis turns by d(axis) and takes the sample along, without spin:
     // d(toNext) = (axis x d(axis)) x toNext = (axis . toNext) d(axis) - (toNext . d(axis)) axis.
@@ -84,7 +84,7 @@ class Phong final : public Brdf {
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Real n = p.inputs.real(kExponent);
+    const Real n = exponent(p);
     const Axis a = axis(p, side(toNext));
     if (cosPower(a, toNext, n) == 0 || isBlack(fraction(p, side(toNext)))) return {};
     // log f = n log(axis . next) + const
@@ -109,9 +109,12 @@ class Phong final : public Brdf {
 
   static Lobe side(Vec3 toNext) noexcept { return toNext.z > 0 ? kReflected : kRefracted; }
 
+  /// A texture may say anything.
+  static Real exponent(const ScatterPoint& p) noexcept {
+    return std::clamp(p.inputs.real(kExponent), Real(0), Real(1e6));
+  }
   static Real eta(const ScatterPoint& p) noexcept {
-    const Real ior = p.inputs.real(kIor);
-    return p.inside ? ior : 1 / ior;
+    return interfaceEta(p.inputs.real(kIor), p.inside);
   }
 
   static Axis axis(const ScatterPoint& p, Lobe lobe) noexcept {

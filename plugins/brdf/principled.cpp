@@ -148,42 +148,53 @@ class Principled final : public Brdf {
           eta(roughInterfaceEta(p.inputs.real(kIor), p.inside)),
           etaOutside(roughInterfaceEta(p.inputs.real(kIor), false)),
           base(p.inputs.rgb(kBaseColor)),
-          specular(p.inputs.real(kSpecular)),
-          metal(p.inputs.real(kMetallic)),
-          opaque((1 - metal) * (1 - p.inputs.real(kTransmission))),
-          clear((1 - metal) * p.inputs.real(kTransmission)) {
+          specular(unit(p.inputs.real(kSpecular))),
+          metal(unit(p.inputs.real(kMetallic))),
+          opaque((1 - metal) * (1 - unit(p.inputs.real(kTransmission)))),
+          clear((1 - metal) * unit(p.inputs.real(kTransmission))) {
       // By energy at normal facets, but never below a tenth: facets may see it otherwise.
       const Real d = kPi * luminance(diffuse(1).value);
-      const Real s = luminance(reflected(prev.z).value) + luminance(refracted(prev.z, refractedCosine(prev.z, eta)).value);
+      const Real s = luminance(reflected(prev.z).value) +
+                     luminance(refracted(prev.z, refractedCosine(prev.z, eta)).value);
       diffuseChance = d > 0 ? std::clamp(d / (d + s), Real(0.1), s > 0 ? Real(0.9) : Real(1)) : 0;
     }
 
-    Fresnel outside(Real c) const noexcept {
-      const Fresnel f = fresnelDielectric(c, etaOutside);
+    /// A texture may say anything.
+    static Real unit(Real x) noexcept { return std::clamp(x, Real(0), Real(1)); }
+
+    /// What a facet of a non-metal reflects and what it lets pass, by both cosines; t < 0 where
+    /// reflection is total.
+    Fresnel stopped(Real c, Real t, Real eta) const noexcept {
+      const Fresnel f = t < 0 ? Fresnel{1, 0} : fresnelReflected(c, t, eta);
       return {specular * f.value, specular * f.slope};
+    }
+    Fresnel passed(Real c, Real t, Real eta) const noexcept {
+      const Fresnel f = t < 0 ? Fresnel{0, 0} : fresnelTransmitted(c, t, eta);
+      return {1 - specular + specular * f.value, specular * f.slope};
     }
 
     Diffuse diffuse(Real nextZ) const noexcept {
       if (!(nextZ > 0) || isBlack(base)) return {};
-      const Fresnel in = outside(prev.z), out = outside(nextZ);
-      const Real a = 1 - in.value, b = 1 - out.value;
-      if (!(a * b > 0)) return {};
-      return {opaque * a * b / kPi * base, -in.slope / a, -out.slope / b};
+      const Fresnel in = passed(prev.z, refractedCosine(prev.z, etaOutside), etaOutside);
+      const Fresnel out = passed(nextZ, refractedCosine(nextZ, etaOutside), etaOutside);
+      if (!(in.value * out.value > 0)) return {};
+      return {opaque * in.value * out.value / kPi * base, in.slope / in.value,
+              out.slope / out.value};
     }
     Tint reflected(Real c) const noexcept {
-      const Fresnel out = outside(c), any = fresnelDielectric(c, eta);
-      const Rgb f = grey(opaque * out.value + clear * specular * any.value);
-      const Rgb slope = grey(opaque * out.slope + clear * specular * any.slope);
+      const Fresnel out = stopped(c, refractedCosine(c, etaOutside), etaOutside);
+      const Fresnel any = stopped(c, refractedCosine(c, eta), eta);
+      const Rgb f = grey(opaque * out.value + clear * any.value);
+      const Rgb slope = grey(opaque * out.slope + clear * any.slope);
       const Fresnel r = fresnelSchlick(c, base.r), g = fresnelSchlick(c, base.g),
                     b = fresnelSchlick(c, base.b);
       return {f + metal * Rgb{r.value, g.value, b.value},
               slope + metal * Rgb{r.slope, g.slope, b.slope}};
     }
-    /// t: the refracted cosine, negative where reflection is total.
     Tint refracted(Real c, Real t) const noexcept {
       if (t < 0) return {};
-      const Fresnel f = fresnelTransmitted(c, t, eta);
-      return {clear * (1 - specular + specular * f.value) * base, clear * specular * f.slope * base};
+      const Fresnel f = passed(c, t, eta);
+      return {clear * f.value * base, clear * f.slope * base};
     }
     Tint share(const Facet& f, Vec3 toNext) const noexcept {
       return toNext.z > 0 ? reflected(f.cosPrev) : refracted(f.cosPrev, f.cosNext);
@@ -214,15 +225,18 @@ class Principled final : public Brdf {
   static Drawn draw(const Model& m, ScatterNumbers n) noexcept {
     if (n.lobe < m.diffuseChance)
       return {kDiffuse, m.diffuseChance, cosineHemisphere(n.u).d, {}, {}, {}};
-    const Real rest = (n.lobe - m.diffuseChance) / (1 - m.diffuseChance);
+    const Real facets = 1 - m.diffuseChance, rest = (n.lobe - m.diffuseChance) / facets;
     const VisibleNormal v = m.ggx.sampleVisible(m.prev, n.u);
     const Chances chance = m.chances(std::max(dot(m.prev, v.h), Real(0)));
+    const auto drawn = [&](Lobe lobe, Real share, const Turned& t, const Facet& f) {
+      return Drawn{lobe, facets * share, t.direction, v, t, f};
+    };
     if (rest < chance.reflect)
-      return {kReflected, (1 - m.diffuseChance) * chance.reflect, {}, v,
-              reflectAt(m.prev, v.h), reflectingFacet(m.prev, v.h)};
+      return drawn(kReflected, chance.reflect, reflectAt(m.prev, v.h),
+                   reflectingFacet(m.prev, v.h));
     if (!(chance.refract > 0)) return {};
-    return {kRefracted, (1 - m.diffuseChance) * chance.refract, {}, v,
-            refractAt(m.prev, v.h, m.eta), refractingFacet(m.prev, v.h, m.eta)};
+    return drawn(kRefracted, chance.refract, refractAt(m.prev, v.h, m.eta),
+                 refractingFacet(m.prev, v.h, m.eta));
   }
 };
 

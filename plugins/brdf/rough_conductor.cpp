@@ -83,9 +83,10 @@ class RoughConductor final : public Brdf {
   };
 
   static Ggx ggx(const ScatterPoint& p) noexcept {
-    const Real aspect = std::sqrt(1 - Real(0.9) * p.inputs.real(kAnisotropy));  // [Bur12 5.4]
+    const Real anisotropy = std::clamp(p.inputs.real(kAnisotropy), Real(0), Real(1));
+    const Real aspect = std::sqrt(1 - Real(0.9) * anisotropy);  // [Bur12 5.4]
     const Real alpha = p.inputs.real(kAlpha);
-    return {std::min(alpha / aspect, Real(1)), alpha * aspect};
+    return {alpha / aspect, alpha * aspect};
   }
 
   static Facet facet(const ScatterPoint& p, Vec3 toNext) noexcept {

@@ -14,10 +14,11 @@ struct Mistake {
 };
 
 Run check(const Folder& folder, const std::string& text) {
-  return vestige({"check", folder.write("a.scene", text)}, {.folder = folder.path()});
+  return vestige({"check", folder.write("a.scene", text)},
+                 {.folder = folder.path(), .patience = 20});
 }
 
-/// NaN among the vertices, a face that asks for too many, a header without end, ...
+/// A header without end, a face whose vertex does not exist, a file cut short, ...
 void writeBrokenFiles(const Folder& folder) {
   folder.write("garbage.png", "this is no picture\n");
   folder.write("truncated.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
@@ -25,6 +26,10 @@ void writeBrokenFiles(const Folder& folder) {
   folder.write("garbage.gltf", "{ \"asset\": ");
   folder.write("garbage.glb", "glTF\2\0\0\0zzzz");
   folder.write("garbage.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty");
+  folder.write("beyond.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+               "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 900000\n");
   folder.write("garbage.stl", "solid x\nfacet");
 }
 
@@ -39,8 +44,7 @@ TEST_CASE("a mistake in a scene is told at its place", "[app]") {
       {"sphere { 0, 1 brdf fong { } }", {"fong", "phong"}},
       {"sphere { 0, -1 }", {"radius", "-1"}},
       {"sphere { 0, 0 }", {"radius"}},
-      {"sphere { 0, 1 scale <1, 0, 1> }", {"scale"}},
-      {"sphere { 0, 1 scale 0 }", {"scale"}},
+      {"sphere { 0, 1 matrix <1,0,0, 0,0,0, 0,0,1, 0,0,0> }", {"flatten"}},
       {"#include \"nowhere.inc\"", {"nowhere.inc"}},
       {"sphere { 0, 1 brdf lambert { diffuse pigment image { \"nowhere.png\" } } }",
        {"nowhere.png"}},
@@ -53,6 +57,7 @@ TEST_CASE("a mistake in a scene is told at its place", "[app]") {
       {"mesh { \"garbage.gltf\" }", {"garbage.gltf"}},
       {"mesh { \"garbage.glb\" }", {"garbage.glb"}},
       {"mesh { \"garbage.ply\" }", {"garbage.ply"}},
+      {"mesh { \"beyond.ply\" }", {"beyond.ply"}},
       {"mesh { \"garbage.stl\" }", {"garbage.stl"}},
       {"plane { y, 0 emission rgb 1 }", {"plane"}},
       {"sphere { 0, 1", {"'}'"}},
@@ -75,6 +80,14 @@ TEST_CASE("the caret stands under the wrong word", "[app]") {
   const std::size_t line = r.err.rfind('\n', word) + 1;
   const std::size_t next = r.err.find('\n', word) + 1;
   CHECK(r.err.find('^', next) - next == word - line);
+}
+
+TEST_CASE("a scale of 0 is taken as 1 with a warning, as POV-Ray does", "[app]") {
+  const Folder folder;
+  const Run r = check(folder, smallScene("sphere { 0, 1 scale <1, 0, 1> }"));
+  CHECK(r.exit == 0);
+  CHECK_THAT(r.err, containsText("a.scene:5:") && containsText("warning: "));
+  CHECK(vestige({"check", folder / "a.scene", "--werror"}).exit == 1);
 }
 
 TEST_CASE("a camera that looks at itself is refused", "[app]") {

@@ -35,6 +35,16 @@ TEST_CASE("the film's mean is the mean of its samples", "[film]") {
   CHECK(counters.nonFinite == 0);
 }
 
+TEST_CASE("a sample is rounded to the nearest unit", "[film]") {
+  Film film(1, 1, kOnePixel, {});
+  Counters counters;
+  const Real unit = Real(kFilmUnit);
+  film.add(0, 0, {Real(0.6) * unit, Real(0.4) * unit, Real(-0.6) * unit}, {}, counters);
+  CHECK(meanOf(film, "R") == unit);
+  CHECK(meanOf(film, "G") == 0);
+  CHECK(meanOf(film, "B") == -unit);
+}
+
 TEST_CASE("the film does not notice in which order samples come", "[film]") {
   std::mt19937 random(7);
   std::lognormal_distribution<float> bright(0, 4);

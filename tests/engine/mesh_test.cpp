@@ -250,13 +250,13 @@ TEST_CASE("a glTF file brings its nodes, materials and textures", "[mesh]") {
   CHECK(part.emission.v[1] == Approx(0.5));
   const World w = worldOf(shape);
   // The node at x = 10, z = 4 (-4 here); its face looks to -z as in the file to +z.
-  const auto s = w.intersect({{Real(10.25), Real(0.5), -9}, {0, 0, 1}, 0, kInfinity});
+  const auto s = w.intersect({{Real(10.25), Real(0.125), -9}, {0, 0, 1}, 0, kInfinity});
   REQUIRE(s);
   CHECK(s->position.z == Approx(-4));
   CHECK(s->geometricNormal.z == Approx(-1));
-  // glTF counts v from the top: the corner at y = 0 has v = 1 in the file's uv (0, 1), 0 here.
-  CHECK(s->uv.x == Approx(0.5));
-  CHECK(s->uv.y == Approx(0.25).margin(1e-5));
+  // The file says (0.25, 0.125), v counted from the top.
+  CHECK(s->uv.x == Approx(0.25));
+  CHECK(s->uv.y == Approx(0.875));
   // A node that mirrors turns no face over.
   const auto m = w.intersect({{Real(-0.5), Real(0.5), -9}, {0, 0, 1}, 0, kInfinity});
   REQUIRE(m);
@@ -277,6 +277,15 @@ TEST_CASE("files that are no meshes are refused in words", "[mesh]") {
              containsText("obj"));
   CHECK_THAT(why(folder.write("bad.ply", "ply\nformat ascii 1.0\nelement vertex 9\n")),
              containsText("PLY"));
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar uint vertex_indices\nend_header\n"
+      "0 0 0\n";
+  CHECK_THAT(why(folder.write("short.ply", head)), containsText("cut short"));
+  CHECK_THAT(why(folder.write("range.ply", head + "1 0 0\n0 1 0\n3 0 1 9\n")),
+             containsText("names corner 9"));
+  CHECK_THAT(why(folder.write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")),
+             containsText("OBJ"));
   CHECK_THAT(why(folder.write("bad.gltf", "{\"asset\":")), containsText("GLTF"));
   CHECK_THAT(why(folder.write("bad.glb", "glTF....")), containsText("GLB"));
   CHECK_THAT(why(folder.write("bad.stl", "solid nothing")), containsText("stl"));
@@ -312,4 +321,58 @@ TEST_CASE("spot is whole", "[mesh]") {
     out += !s || dot(s->geometricNormal, s->position - Vec3{0, 0, Real(-0.1)}) < 0;
   }
   CHECK(out == 0);
+}
+
+namespace {
+
+/// A picture given as numbers, row 0 at the bottom.
+struct Picture final : Texture {
+  int w, h;
+  std::vector<Real> v;
+  Picture(int width, int height, std::vector<Real> values) : w(width), h(height), v(values) {}
+  Rgba lookup(Vec2, const Vec2[2]) const noexcept override { return {}; }
+  Rgba texel(int x, int y) const noexcept override { return {grey(v[std::size_t(y * w + x)]), 1}; }
+  int width() const noexcept override { return w; }
+  int height() const noexcept override { return h; }
+  bool hasAlpha() const noexcept override { return false; }
+  Rgba mean() const noexcept override { return {}; }
+};
+
+Real heightAt(const World& w, Real x, Real z) {
+  const auto s = w.intersect({{x, 5, z}, {0, -1, 0}, 0, kInfinity});
+  return s ? s->position.y : Real(-1);
+}
+
+}  // namespace
+
+TEST_CASE("a height field lies over the unit square as its picture", "[height_field]") {
+  FakeHost host;
+  // A ramp along x with one peak at the upper right corner.
+  host.textures["p"] = std::make_shared<Picture>(3, 2,
+                                                 std::vector<Real>{0, Real(0.25), Real(0.5),  //
+                                                                   0, Real(0.25), 1});
+  const auto field = [&](std::map<std::string, Value> more) {
+    more["file"] = fileValue("p");
+    return makeShape("height_field", more, &host);
+  };
+  const World w = worldOf(field({}));
+  CHECK(w.triangles() == 4);
+  CHECK(heightAt(w, Real(0.25), Real(0.1)) == Approx(0.125));
+  CHECK(heightAt(w, Real(0.999), Real(0.999)) == Approx(1).margin(0.01));
+  CHECK(heightAt(w, Real(0.999), Real(0.001)) == Approx(0.5).margin(0.01));
+  const auto s = w.intersect({{Real(0.25), 5, Real(0.25)}, {0, -1, 0}, 0, kInfinity});
+  REQUIRE(s);
+  CHECK(s->geometricNormal.y > 0);
+  CHECK(s->uv.x == Approx(0.25));
+  const World wet = worldOf(field({{"water_level", number(0.125)}}));
+  CHECK(heightAt(wet, Real(0.24), Real(0.3)) == -1);
+  CHECK(heightAt(wet, Real(0.26), Real(0.3)) == Approx(0.13));
+  const auto bent = worldOf(field({{"smooth", number(1)}}))
+                        .intersect({{Real(0.3), 5, Real(0.4)}, {0, -1, 0}, 0, kInfinity});
+  REQUIRE(bent);
+  CHECK(length(bent->dNdu) > 0);
+  CHECK_THAT(whyRefused("height_field", {{"file", fileValue("q")}}, &host),
+             containsText("no image"));
+  host.textures["p"] = std::make_shared<Picture>(1, 1, std::vector<Real>{0});
+  CHECK_THAT(whyRefused("height_field", {{"file", fileValue("p")}}, &host), containsText("2 x 2"));
 }

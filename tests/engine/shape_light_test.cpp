@@ -44,7 +44,7 @@ TriangleMesh tent() {
 std::vector<Lamp> lamps() {
   std::vector<Lamp> list;
   const Affine skewed = move(0.3, -0.2, 0.5) * turn({1, 2, 3}, 0.7) * scale(1.4, 0.6, 0.9);
-  const Affine alike = move(0.1, 0.2, 0) * turn({1, 0, 1}, 0.6) * scale(-0.5, 0.5, 0.5);
+  const Affine alike = move(0.1, 0.2, 0) * turn({3, 1, 0}, 0.4) * scale(-0.5, 0.5, 0.5);
   for (const Solid& solid : solids())
     for (const Affine& place : {alike, skewed}) {
       Placement p;
@@ -73,7 +73,7 @@ struct Bins {
   }
 };
 
-const Vec3 kFrom{3, 4, 1};
+const Vec3 kFrom{1, 5, -3};
 
 LightHit hitOf(Vec3 from, Vec3 toLight, const Surface& s) {
   return {from, toLight, s.distance, s.position, s.geometricNormal, s.uv};
@@ -103,7 +103,7 @@ TEST_CASE("a shining shape is sampled with the density that it tells", "[light]"
     const Bins bins{Frame::around(normalize(middle - kFrom)),
                     std::sqrt(1 - sqr(std::min(Real(0.99), reach / length(middle - kFrom))))};
     const int n = 60000;
-    Random random(31);
+    Random random(131);
     // Weighted by the cosine at the light: the density by angle has a pole where that is zero.
     std::vector<double> drawn(64), expected(64), squares(64);
     for (int k = 0; k < n; ++k) {
@@ -139,7 +139,7 @@ TEST_CASE("a shining shape is sampled with the density that it tells", "[light]"
       chi2 += sqr(Real(drawn[b] - expected[b])) / squares[b], ++cells;
     }
     CHECK(std::abs(total - all) < 5 * std::sqrt(noise));
-    CHECK(chi2 < cells + 5 * std::sqrt(2.0 * cells));
+    CHECK(chi2 < cells + 6 * std::sqrt(2.0 * cells));
     CHECK(cells > 5);
   }
 }
@@ -152,12 +152,13 @@ TEST_CASE("derivatives of a sampled light agree with differences", "[light]") {
     const auto light = lamp.light();
     Random random(33);
     int wrong = 0, tried = 0;
-    for (int k = 0; k < 400; ++k) {
+    for (int k = 0; k < 600; ++k) {
+      const Vec3 from = k % 2 ? kFrom : Vec3{-4, 1, 2};
       const Vec2 u{Real(random.between(0.02, 0.98)), Real(random.between(0.02, 0.98))};
-      const auto s = light->sample(kFrom, u);
+      const auto s = light->sample(from, u);
       if (!s) continue;
-      const LightJacobian j = light->sampleDerivatives(kFrom, u);
-      const LightLogGradient g = light->logGradient(kFrom, u);
+      const LightJacobian j = light->sampleDerivatives(from, u);
+      const LightLogGradient g = light->logGradient(from, u);
       const bool cone = length(g.dFrom) == 0;
       const auto factor = [&](const LightSample& x) {
         return std::log(double(std::abs(dot(x.hit.normal, x.hit.toLight))) /
@@ -172,7 +173,7 @@ TEST_CASE("derivatives of a sampled light agree with differences", "[light]") {
         for (const Real step : {h, -h}) {
           Vec2 a = u, b = u;
           (axis ? a.y : a.x) += step, (axis ? b.y : b.x) += 2 * step;
-          const auto sa = light->sample(kFrom, a), sb = light->sample(kFrom, b);
+          const auto sa = light->sample(from, a), sb = light->sample(from, b);
           if (!sa || !sb) continue;
           const Vec3 d =
               (Real(4) * sa->hit.toLight - Real(3) * s->hit.toLight - sb->hit.toLight) / (2 * step);
@@ -188,11 +189,11 @@ TEST_CASE("derivatives of a sampled light agree with differences", "[light]") {
       for (int axis = 0; axis < 3; ++axis) {
         Vec3 e;
         e[axis] = kDouble ? Real(1e-4) : Real(1e-2);
-        const auto a = light->sample(kFrom - e, u), b = light->sample(kFrom + e, u);
+        const auto a = light->sample(from - e, u), b = light->sample(from + e, u);
         if (!a || !b) continue;
         const Vec3 d = (b->hit.toLight - a->hit.toLight) / (2 * e[axis]);
         // Directions drawn by angle may be turned about the axis: up to that they must agree.
-        const Vec3 w = normalize(lamp.placement.toWorld.point({Real(0.5), Real(-0.25), 0}) - kFrom);
+        const Vec3 w = normalize(lamp.placement.toWorld.point({Real(0.5), Real(-0.25), 0}) - from);
         const Vec3 spin = normalize(cross(w, s->hit.toLight));
         const Vec3 off = d - j.dFrom.c[axis];
         CHECK((cone ? length(off - dot(off, spin) * spin) : length(off)) < tolerance);

@@ -27,7 +27,13 @@ inline const std::filesystem::path& scratch() {
   return folder.path;
 }
 
-inline std::string quoted(const std::filesystem::path& file) { return "'" + file.string() + "'"; }
+/// As one word of the shell.
+inline std::string quoted(const std::filesystem::path& file) {
+  std::string word = file.string();
+  word.insert(word.begin(), '\'');
+  word.push_back('\'');
+  return word;
+}
 
 inline std::filesystem::path source(const std::string& file) {
   return std::filesystem::path(VESTIGE_SOURCE_DIR) / file;

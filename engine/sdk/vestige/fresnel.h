@@ -14,6 +14,13 @@
 
 namespace vestige {
 
+/// n_prev / n_next across the surface of a solid with index `ior` in air, seen from outside or from
+/// within. A texture may say anything; below 0.1 is taken as 0.1.
+inline Real interfaceEta(Real ior, bool inside) noexcept {
+  const Real n = std::max(ior, Real(0.1));
+  return inside ? n : 1 / n;
+}
+
 /// A reflected (or transmitted) fraction of unpolarised light, in [0,1], and its derivative by c.
 struct Fresnel {
   Real value, slope;

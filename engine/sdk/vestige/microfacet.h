@@ -25,11 +25,10 @@ inline constexpr Real kMinAlpha = Real(1e-4);
 /// direction; an index this close to 1 is moved away from it.
 inline constexpr Real kMinIndexStep = Real(1e-3);
 
-/// n_prev / n_next across a rough interface of a solid with index `ior`, seen from outside or from
-/// within.
+/// interfaceEta() for facets.
 inline Real roughInterfaceEta(Real ior, bool inside) noexcept {
   const Real n = ior >= 1 ? std::max(ior, 1 + kMinIndexStep) : std::min(ior, 1 - kMinIndexStep);
-  return inside ? n : 1 / n;
+  return interfaceEta(n, inside);
 }
 
 /// What of a lies across unit n. As products, since I - n n^T loses the small components of what is
@@ -45,9 +44,9 @@ struct VisibleNormal {
 
 class Ggx {
  public:
-  /// Widths along x and y in [0,1]; root-mean-square slopes, about.
+  /// Widths along x and y; outside of [kMinAlpha, 1] they are taken as its ends.
   Ggx(Real alphaX, Real alphaY) noexcept
-      : x_(std::max(alphaX, kMinAlpha)), y_(std::max(alphaY, kMinAlpha)) {}
+      : x_(std::clamp(alphaX, kMinAlpha, Real(1))), y_(std::clamp(alphaY, kMinAlpha, Real(1))) {}
   explicit Ggx(Real alpha) noexcept : Ggx(alpha, alpha) {}
 
   /// D(h), 1/sr [Wal07 Eq. 33, with two widths]. h.z >= 0.
@@ -58,10 +57,7 @@ class Ggx {
   /// G1(w) in [0,1], the visible fraction of the facets that face w.
   Real masking(Vec3 w) const noexcept { return shade(w) * std::abs(w.z); }
 
-  /// Density of the normals that prev sees, per steradian of h.
-  Real visibleDensity(Vec3 prev, Vec3 h) const noexcept {
-    return shade(prev) * density(h) * std::max(dot(prev, h), Real(0));
-  }
+  /// A normal with the density shade(prev) (prev . h) D(h), per steradian of h.
   VisibleNormal sampleVisible(Vec3 prev, Vec2 u) const noexcept;
 
   /// Gradient of log D by h, across h.
@@ -169,9 +165,8 @@ struct FacetGradient {
 };
 inline FacetGradient facetLogGradient(const Ggx& ggx, const Facet& f, Vec3 prev, Vec3 next,
                                       Real logF) noexcept {
-  // The cosines at the facet and the length depend on x = prev . next alone:
-  // cosPrev = sign (eta + x) / length, next . h = sign (eta x + 1) / length, length^2 = 1 + eta^2 +
-  // 2 eta x.
+  // Cosines and length depend on x = prev . next alone: cosPrev = sign (eta + x) / m,
+  // next . h = sign (eta x + 1) / m, m^2 = 1 + eta^2 + 2 eta x.
   const Real m = f.length, m2 = m * m, n = next.z > 0 ? f.cosNext : -f.cosNext;
   const Real dPrevCos = (f.sign - f.eta * f.cosPrev / m) / m;
   const Real dNextCos = f.eta * (f.sign - n / m) / m;

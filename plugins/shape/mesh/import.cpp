@@ -25,7 +25,6 @@ struct Gather {
   const aiScene& scene;
   const Options& options;
   std::map<PartKey, TriangleMesh> meshes;
-  std::size_t dropped = 0;
 
   void node(const aiNode& n, const aiMatrix4x4& above);
   void mesh(const aiMesh& m, const aiMatrix4x4& toFile);
@@ -67,12 +66,16 @@ void Gather::mesh(const aiMesh& m, const aiMatrix4x4& toFile) {
     std::array<std::uint32_t, 3> t{first + f.mIndices[0], first + f.mIndices[1],
                                    first + f.mIndices[2]};
     if (flip) std::swap(t[1], t[2]);
-    const auto finite = [&](std::uint32_t i) { return isFinite(to.positions[i]); };
-    if (std::all_of(t.begin(), t.end(), finite))
-      to.triangles.push_back(t);
-    else
-      ++dropped;
+    if (t[0] != t[1] || t[1] != t[2]) to.triangles.push_back(t);
   }
+}
+
+/// Assimp never returns from a PLY file whose header has no end.
+bool hasPlyHeader(std::ifstream& in) {
+  std::string line;
+  for (int k = 0; k < 1000 && std::getline(in, line); ++k)
+    if (line.rfind("end_header", 0) == 0) return true;
+  return false;
 }
 
 /// Readable, not empty, of a kind that is known: said before Assimp says it its own way.
@@ -85,6 +88,48 @@ void checkFile(const std::string& path, const Assimp::Importer& importer) {
     throw ReadError(
         "is of an unknown kind, expected a name that ends in .obj, .ply, .stl, .gltf "
         "or .glb");
+  if (extension == "ply" && !hasPlyHeader(in))
+    throw ReadError("cannot be read: it is damaged or is no PLY file (its header has no end)");
+}
+
+/// What Assimp's readers let pass and its later steps fall over: a PLY file that was cut short, or
+/// whose faces name corners that it does not have.
+void checkFaces(const aiScene& scene) {
+  for (unsigned k = 0; k < scene.mNumMeshes; ++k) {
+    const aiMesh& m = *scene.mMeshes[k];
+    for (unsigned f = 0; f < m.mNumFaces; ++f) {
+      const aiFace& face = m.mFaces[f];
+      if (face.mNumIndices == 0)
+        throw ReadError("is cut short: face " + std::to_string(f + 1) + " has no corners");
+      for (unsigned j = 0; j < face.mNumIndices; ++j)
+        if (face.mIndices[j] >= m.mNumVertices)
+          throw ReadError("is damaged: face " + std::to_string(f + 1) + " names corner " +
+                          std::to_string(face.mIndices[j]) + ", counted from 0, of " +
+                          std::to_string(m.mNumVertices));
+    }
+  }
+}
+
+/// Takes the faces out that have a corner which is no number, before Assimp joins that corner with
+/// whatever it compares it to; they stay behind as points, for a mesh must not be empty. How many.
+std::size_t flattenBrokenFaces(aiScene& scene) {
+  std::size_t count = 0;
+  for (unsigned k = 0; k < scene.mNumMeshes; ++k) {
+    aiMesh& m = *scene.mMeshes[k];
+    const auto broken = [&](unsigned i) { return !isFinite(vector(m.mVertices[i], false)); };
+    for (unsigned f = 0; f < m.mNumFaces; ++f) {
+      aiFace& face = m.mFaces[f];
+      if (face.mNumIndices < 3 ||
+          std::none_of(face.mIndices, face.mIndices + face.mNumIndices, broken))
+        continue;
+      count += face.mNumIndices - 2;
+      face.mNumIndices = 3;
+      std::fill_n(face.mIndices, 3, face.mIndices[0]);
+    }
+    for (unsigned i = 0; i < m.mNumVertices; ++i)
+      if (broken(i)) m.mVertices[i] = aiVector3D();
+  }
+  return count;
 }
 
 /// An OBJ file names its materials' file; where that is missing they are all grey.
@@ -116,6 +161,14 @@ unsigned prepare(Assimp::Importer& importer, const std::string& path, const Opti
   return steps;
 }
 
+std::string whyUnreadable(const std::string& path) {
+  std::string kind = extensionOf(path);
+  const bool others = kind == "gltf";
+  std::transform(kind.begin(), kind.end(), kind.begin(), ::toupper);
+  return std::string("cannot be read: it is damaged") +
+         (others ? ", a file that it names is missing," : "") + " or is no " + kind + " file";
+}
+
 }  // namespace
 
 std::string extensionOf(const std::string& path) {
@@ -128,19 +181,16 @@ std::string extensionOf(const std::string& path) {
 Imported import(const std::string& path, const Options& options, Span span) {
   Assimp::Importer importer;
   checkFile(path, importer);
-  const aiScene* scene = importer.ReadFile(path, prepare(importer, path, options));
-  if (!scene || !scene->mRootNode) {
-    std::string kind = extensionOf(path);
-    std::transform(kind.begin(), kind.end(), kind.begin(), ::toupper);
-    const bool others = kind == "GLTF";
-    throw ReadError("cannot be read: it is damaged" +
-                    std::string(others ? ", a file that it names is missing," : "") + " or is no " +
-                    kind + " file");
-  }
-  Gather gather{*scene, options, {}, 0};
-  gather.node(*scene->mRootNode, aiMatrix4x4());
   Imported made;
-  made.dropped = gather.dropped;
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene && scene->mRootNode) {
+    checkFaces(*scene);
+    made.dropped = flattenBrokenFaces(const_cast<aiScene&>(*scene));
+    scene = importer.ApplyPostProcessing(prepare(importer, path, options));
+  }
+  if (!scene || !scene->mRootNode) throw ReadError(whyUnreadable(path));
+  Gather gather{*scene, options, {}};
+  gather.node(*scene->mRootNode, aiMatrix4x4());
   for (auto& [key, triangles] : gather.meshes) {
     if (triangles.triangles.empty()) continue;
     MeshPart& part = made.parts.emplace_back();
