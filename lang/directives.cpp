@@ -286,9 +286,7 @@ Cell Directives::argument(const std::string& macro) {
 }
 
 void Directives::checkMacroDepth(const Token& name) {
-  int depth = 0;
-  for (const Frame& f : stream_.frames()) depth += f.kind == Frame::Kind::macro ? 1 : 0;
-  if (depth >= context_.options.limits.macroDepth)
+  if (stream_.macroDepth() >= context_.options.limits.macroDepth)
     context_.reporter.stop(name.span, "macros call each other more than " +
                                           std::to_string(context_.options.limits.macroDepth) +
                                           " deep: does '" + *name.text +

@@ -66,6 +66,7 @@ std::pair<std::string, std::string> marked(const Span& span, const Sources& sour
   std::string marks(shown.size(), ' ');
   for (std::size_t i = first; i < std::min(all.size(), first + kWidth); ++i) shown += all[i].first;
   if (first + kWidth < all.size() || all.size() >= near) shown += "...";
+  while (!shown.empty() && shown.back() == ' ') shown.pop_back();
   marks += std::string(caret - first, ' ') + '^';
   marks += std::string(std::min(last, first + kWidth) - std::min(last, caret + 1), '~');
   return {shown, marks};
@@ -86,7 +87,7 @@ class Printer {
     out_ << text << '\n';
     if (span.file < 0) return;
     const auto [line, marks] = marked(span, sources_);
-    out_ << "  " << line << "\n  ";
+    out_ << (line.empty() ? "" : "  ") << line << "\n  ";
     paint(kGreen);
     out_ << marks;
     paint(kPlain);

@@ -5,10 +5,12 @@ namespace vestige::lang {
 
 void TokenStream::push(Frame frame) {
   if (!frames_.empty()) context_.symbols.push();  // the main file's table is the global one
+  if (frame.kind == Frame::Kind::macro) ++macroDepth_;
   frames_.push_back(std::move(frame));
 }
 
 void TokenStream::pop() {
+  if (frame().kind == Frame::Kind::macro) --macroDepth_;
   frames_.pop_back();
   context_.symbols.pop();
 }

@@ -42,6 +42,7 @@ class TokenStream {
   void push(Frame frame);
   Frame& frame() { return frames_.back(); }
   const std::vector<Frame>& frames() const { return frames_; }
+  int macroDepth() const { return macroDepth_; }
   /// Leaves the innermost frame with its names.
   void pop();
 
@@ -81,6 +82,7 @@ class TokenStream {
   Span last_;
   std::int64_t taken_ = 0;
   int braces_ = 0;
+  int macroDepth_ = 0;
 };
 
 }  // namespace vestige::lang

@@ -88,15 +88,15 @@ class HeightField final : public MeshShape {
 
   Corner corner(int x, int y) const {
     const Real dx = Real(1) / (w_ - 1), dz = Real(1) / (h_ - 1);
-    return {{x * dx, at(x, y), y * dz},
+    return {{x * dx, height(x, y), y * dz},
             normalize({-slope(x, y, 1, 0) / dx, 1, -slope(x, y, 0, 1) / dz})};
   }
-  Real at(int x, int y) const { return heights_[std::size_t(y) * w_ + x]; }
+  Real height(int x, int y) const { return heights_[std::size_t(y) * w_ + x]; }
   /// Height by texel along x or y: central difference, one-sided at the rim.
   Real slope(int x, int y, int sx, int sy) const {
     const int x0 = std::max(x - sx, 0), y0 = std::max(y - sy, 0);
     const int x1 = std::min(x + sx, w_ - 1), y1 = std::min(y + sy, h_ - 1);
-    return (at(x1, y1) - at(x0, y0)) / Real(x1 - x0 + y1 - y0);
+    return (height(x1, y1) - height(x0, y0)) / Real(x1 - x0 + y1 - y0);
   }
 
   std::vector<Real> heights_;

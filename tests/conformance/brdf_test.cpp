@@ -3,87 +3,22 @@
 // wrote it, over ranges and awkward corners of its parameters.
 //
 // sample(), pdf() and sampleDerivatives() are three independent statements about one map:
-//     sample and pdf           chi-square
-//     pdf and derivative       |du.c0 x du.c1| lobePdf = 1
-//     sample and derivative    finite differences
+//     sample and pdf           chi-square                        here
+//     pdf and derivative       |du.c0 x du.c1| lobePdf = 1       brdf_derivatives_test.cpp
+//     sample and derivative    finite differences                likewise
 // A fault in one of them breaks two of these tests, which names the culprit. eval() is held by its
 // quotient with pdf(), by energy and by reciprocity; logGradient() by differences of eval().
 //
 // A failure prints the worst event: plugin, parameters, directions and random numbers.
-#include "support/brdf_cases.h"
-#include "support/catch.h"
+#include <complex>
+
+#include "support/brdf_events.h"
 #include "support/statistics.h"
-#include "support/trusted_difference.h"
 
 using namespace vestige;
 using namespace vestige::test;
 
 namespace {
-
-constexpr bool kDouble = sizeof(Real) == 8;
-constexpr double kEpsilon = double(std::numeric_limits<Real>::epsilon());
-
-double relative(double value, double expected) {
-  return std::abs(value - expected) / std::max(std::abs(expected), 1e-30);
-}
-double relative(Rgb value, Rgb expected) {
-  const Rgb d = value - expected;
-  return maxComponent({std::abs(d.r), std::abs(d.g), std::abs(d.b)}) /
-         std::max(double(maxComponent(expected)), 1e-30);
-}
-
-/// How much a number that depends on both directions changes, relatively, when each moves by a few
-/// units of rounding: what narrow lobes, grazing angles and the edge of total reflection do to the
-/// best of implementations.
-template <class F>
-double wobble(const ScatterPoint& p, Vec3 toNext, const F& f) {
-  constexpr double kRounding = 4 * kEpsilon;
-  const double value = std::max(double(f(p, toNext)), 1e-30);
-  double most = 0;
-  for (int i = 0; i < 4; ++i) {
-    const double angle = i * double(kPi) / 2;
-    const ScatterPoint q = {turned(p.toPrev, tangent(p.toPrev, angle), kRounding), p.inside,
-                            p.inputs};
-    const Vec3 d = turned(toNext, tangent(toNext, angle), kRounding);
-    most = std::max(most, std::abs(double(f(q, toNext)) - value) / value);
-    most = std::max(most, std::abs(double(f(p, d)) - value) / value);
-  }
-  return most;
-}
-double pdfTolerance(const BrdfCase& c, const ScatterPoint& p, Vec3 toNext) {
-  const auto pdf = [&](const ScatterPoint& q, Vec3 d) { return c.brdf->pdf(q, d); };
-  return (kDouble ? 1e-9 : 1e-3) + 4 * wobble(p, toNext, pdf);
-}
-double evalTolerance(const BrdfCase& c, const ScatterPoint& p, Vec3 toNext) {
-  const auto f = [&](const ScatterPoint& q, Vec3 d) { return maxComponent(c.brdf->eval(q, d)); };
-  return (kDouble ? 1e-9 : 1e-3) + 4 * wobble(p, toNext, f);
-}
-
-std::string told(const char* what, double value, double expected) {
-  std::ostringstream text;
-  text.precision(9);
-  text << what << " " << value << ", expected " << expected;
-  return text.str();
-}
-
-/// Random events of all cases: f(case, point, numbers, random).
-template <class F>
-void forEvents(const std::vector<BrdfCase>& cases, int eventsPerCase, const F& f) {
-  Random r(1);
-  for (const BrdfCase& c : cases)
-    for (int i = 0; i < eventsPerCase; ++i) {
-      const ScatterPoint p = c.at(aboveSurface(r), i % 2 == 1);
-      f(c, p, numbers(r), r);
-    }
-}
-
-void check(const WorstEvent& worst) {
-  INFO(worst.event);
-  CHECK(worst.events > 0);
-  CHECK(worst.error <= 1);
-}
-
-// ------------------------------------------------------------------------------ sample and pdf
 
 struct Goodness {
   double pValue;
@@ -311,6 +246,56 @@ TEST_CASE("etaScale is the square of the indices' quotient, as Snell's law has i
   check(worst);
 }
 
+TEST_CASE("smooth surfaces follow Snell and Fresnel", "[brdf][energy]") {
+  // Both polarisations with complex numbers: metals, dielectrics and total reflection in one.
+  const auto reflected = [](double c, std::complex<double> index) {
+    const std::complex<double> t = std::sqrt(index * index - (1 - c * c));
+    const auto s = (c - t) / (c + t), p = (index * index * c - t) / (index * index * c + t);
+    return (std::norm(s) + std::norm(p)) / 2;
+  };
+  const Value white = colourValue(1, 1, 1), none = numberValue(0);
+  const BrdfCase clear[] = {
+      brdfCase("glass", {}),
+      brdfCase("rough_dielectric", {{"alpha", none}}),
+      brdfCase("principled",
+               {{"base_color", white}, {"transmission", numberValue(1)}, {"roughness", none}}),
+  };
+  const Vec2 middle = {Real(0.5), Real(0.5)};
+  Random r(7);
+  for (const Real height : {Real(1), Real(0.9), Real(0.5), Real(0.2)})
+    for (const bool inside : {false, true}) {
+      const double index = inside ? 1 / 1.5 : 1.5;
+      const double f = reflected(double(height), index);
+      const Vec3 toPrev = atHeight(height, r);
+      for (const BrdfCase& c : clear) {
+        INFO(c.title() << " at height " << height << (inside ? " inside" : " outside"));
+        const auto low = c.brdf->sample(c.at(toPrev, inside), {0, middle});
+        REQUIRE(low);
+        CHECK(low->lobeChance == Approx(f).epsilon(3e-3));
+        const auto high = c.brdf->sample(c.at(toPrev, inside), {kOneMinusEpsilon, middle});
+        REQUIRE(high);
+        CHECK((high->toNext.z > 0) == (f == 1));
+        if (f < 1)
+          CHECK(length(Real(index) * cross(high->toNext, {0, 0, 1}) +  //
+                       cross(toPrev, {0, 0, 1})) < 2e-3);
+      }
+      const BrdfCase through =
+          brdfCase("phong", {{"transmission", white}, {"exponent", numberValue(1e6)}});
+      const auto s = through.brdf->sample(through.at(toPrev, inside), {0, middle});
+      CHECK(bool(s) == (f < 1));
+      if (s)
+        CHECK(length(Real(index) * cross(s->toNext, {0, 0, 1}) + cross(toPrev, {0, 0, 1})) < 2e-3);
+      const BrdfCase gold = brdfCase("rough_conductor", {{"alpha", none},
+                                                         {"eta", colourValue(0.143, 0.375, 1.442)},
+                                                         {"k", colourValue(3.983, 2.386, 1.603)}});
+      const auto m = gold.brdf->sample(gold.at(toPrev, inside), {0, middle});
+      REQUIRE(m);
+      CHECK(m->weight.r == Approx(reflected(double(height), {0.143, 3.983})).epsilon(2e-3));
+      CHECK(m->weight.g == Approx(reflected(double(height), {0.375, 2.386})).epsilon(2e-3));
+      CHECK(m->weight.b == Approx(reflected(double(height), {1.442, 1.603})).epsilon(2e-3));
+    }
+}
+
 TEST_CASE("a surface without colour absorbs", "[brdf]") {
   const Value black = colourValue(0, 0, 0);
   const Value none = numberValue(0);
@@ -329,238 +314,3 @@ TEST_CASE("a surface without colour absorbs", "[brdf]") {
       REQUIRE(isBlack(c.brdf->eval(p, anywhere(r))));
     }
 }
-
-// ----------------------------------------------------------------------------- derivatives
-
-namespace {
-
-constexpr double kMapStep = kDouble ? 1e-3 : 1e-2;
-constexpr double kMapTolerance = kDouble ? 1e-6 : 4e-3;
-
-/// toNext of one lobe, as a map from anything that moves an event a little.
-std::optional<Vec3> within(const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, int lobe) {
-  const auto s = c.brdf->sample(p, n);
-  return s && s->lobe == lobe ? std::optional(s->toNext) : std::nullopt;
-}
-
-}  // namespace
-
-TEST_CASE("the derivative's area is the density's inverse", "[brdf][derivatives]") {
-  WorstEvent worst;
-  forEvents(brdfCases(), 2000, [&](const BrdfCase& c, auto& p, ScatterNumbers n, Random&) {
-    const auto s = c.brdf->sample(p, n);
-    if (!s) return;
-    const Mat3x2 du = c.brdf->sampleDerivatives(p, n).du;
-    const double area = double(length(cross(du.c[0], du.c[1])) * s->lobePdf);
-    if (s->specular) {
-      worst.see(area > 0 ? 2 : 0, [&] { return eventLine(c, p, n, "specular, but du is not 0"); });
-      return;
-    }
-    // Columns that are almost parallel cancel in their product.
-    const double stretch = double(length(du.c[0]) * length(du.c[1]) * s->lobePdf);
-    const double allowed = (kDouble ? 1e-9 : 1e-3) + 20 * kEpsilon * stretch;
-    worst.see(std::abs(area - 1) / allowed,
-              [&] { return eventLine(c, p, n, told("|du0 x du1| lobePdf", area, 1)); });
-  });
-  check(worst);
-}
-
-TEST_CASE("du is the derivative of the sampling map by its numbers", "[brdf][derivatives]") {
-  WorstEvent worst;
-  int asked = 0, judged = 0;
-  forEvents(brdfCases(), 2000, [&](const BrdfCase& c, auto& p, ScatterNumbers n, Random& r) {
-    const auto s = c.brdf->sample(p, n);
-    if (!s || s->specular || !differsSmoothly(n.u, Real(0.03))) return;
-    const Mat3x2 du = c.brdf->sampleDerivatives(p, n).du;
-    const double size = double(std::max(length(du.c[0]), length(du.c[1])));
-    const double angle = 2 * double(kPi * r.number());
-    const Vec2 along = {Real(std::cos(angle)), Real(std::sin(angle))};
-    const auto map = [&](double h) {
-      return within(c, p, {n.lobe, n.u + Real(h) * along}, s->lobe);
-    };
-    ++asked;
-    const auto expected = trustedDifference(map, kMapStep, kMapTolerance * size);
-    if (!expected) return;
-    ++judged;
-    worst.see(sizeOf(du * along - *expected) / (kMapTolerance * size), [&] {
-      return eventLine(c, p, n, told("|du|", sizeOf(du * along), sizeOf(*expected)));
-    });
-  });
-  check(worst);
-  CHECK(judged > asked / 3);
-}
-
-TEST_CASE("dPrev is the derivative of the sampling map by toPrev", "[brdf][derivatives]") {
-  // A lobe built in a frame around its axis may turn that frame as it likes; the derivative is the
-  // one without spin, so the frame's own spin is taken out of the differences. A lobe that is not
-  // built so has no spin to take out. Which of the two a lobe is, it has to be at every event.
-  std::map<std::string, std::array<WorstEvent, 2>> lobes;
-  int asked = 0, judged = 0;
-  forEvents(brdfCases(), 2000, [&](const BrdfCase& c, auto& p, ScatterNumbers n, Random& r) {
-    const auto s = c.brdf->sample(p, n);
-    if (!s || p.toPrev.z < Real(0.05)) return;
-    const ScatterJacobian j = c.brdf->sampleDerivatives(p, n);
-    const Vec3 along = tangent(p.toPrev, 2 * double(kPi * r.number()));
-    const auto moved = [&](double h) { return c.at(turned(p.toPrev, along, h), p.inside); };
-    const auto asIs = [&](double h) { return within(c, moved(h), n, s->lobe); };
-    const auto frame = lobeFrame(*c.brdf, p, n.lobe);
-    const auto unspun = [&](double h) -> std::optional<Vec3> {
-      const auto toNext = asIs(h);
-      const auto there = lobeFrame(*c.brdf, moved(h), n.lobe);
-      if (!toNext || !there || !frame) return std::nullopt;
-      const Vec3 local = there->toLocal(*toNext);
-      return transport(frame->n, there->n, frame->toWorld(local));
-    };
-    const Vec3 found = j.dPrev * along;
-    const double step = kMapStep * double(p.toPrev.z);
-    const double allowed = kMapTolerance * std::max(1.0, sizeOf(found));
-    auto& [direct, transported] = lobes[c.plugin + " lobe " + std::to_string(s->lobe)];
-    const auto judge = [&](WorstEvent& worst, const std::optional<Vec3>& expected) {
-      if (!expected) return;
-      worst.see(sizeOf(found - *expected) / allowed, [&] {
-        std::ostringstream text;
-        text << "dPrev " << along << " gives " << found << ", expected " << *expected;
-        return eventLine(c, p, n, text.str());
-      });
-    };
-    ++asked;
-    const auto plain = trustedDifference(asIs, step, allowed);
-    judged += plain.has_value();
-    judge(direct, plain);
-    if (frame && !s->specular) judge(transported, trustedDifference(unspun, step, allowed));
-  });
-  CHECK(judged > asked / 3);
-  for (const auto& [lobe, worst] : lobes) {
-    INFO(lobe);
-    const bool spins = worst[1].events > 0 && worst[1].error < worst[0].error;
-    check(worst[spins ? 1 : 0]);
-  }
-}
-
-TEST_CASE("logGradient is the derivative of log f", "[brdf][derivatives]") {
-  WorstEvent worst;
-  int asked = 0, judged = 0;
-  forEvents(brdfCases(), 2000, [&](const BrdfCase& c, auto& p, ScatterNumbers n, Random& r) {
-    Vec3 toNext = anywhere(r);  // as a light would choose it; or as the BRDF does
-    if (r.number() < Real(0.5))
-      if (const auto s = c.brdf->sample(p, n)) toNext = s->toNext;
-    const LogGradient g = c.brdf->logGradient(p, toNext);
-    if (!(luminance(c.brdf->eval(p, toNext)) > 0)) {
-      const double size = sizeOf(g.dPrev) + sizeOf(g.dNext);
-      worst.see(size > 0 ? 2 : 0, [&] { return eventLine(c, p, n, "f is zero, its slope not"); });
-      return;
-    }
-    const double sharp = std::sqrt(double(c.brdf->pdf(p, toNext)));
-    for (const bool next : {false, true}) {
-      const Vec3 from = next ? toNext : p.toPrev;
-      const Vec3 along = tangent(from, 2 * double(kPi * r.number()));
-      const auto logF = [&](double h) -> std::optional<Real> {
-        const Vec3 d = turned(from, along, h);
-        const ScatterPoint q = next ? p : c.at(d, p.inside);
-        if (q.toPrev.z <= 0) return std::nullopt;
-        const Real f = luminance(c.brdf->eval(q, next ? d : toNext));
-        return f > Real(1e-25) ? std::optional(std::log(f)) : std::nullopt;
-      };
-      const double found = double(dot(next ? g.dNext : g.dPrev, along));
-      // A step is a fraction of the lobe's width, or of the height above the horizon.
-      const double width = 1 / (1 + sharp + std::abs(found) + 1 / sizeOf(from.z));
-      const double step = (kDouble ? 1e-2 : 0.1) * width;
-      const double allowed = kMapTolerance / width;
-      const auto f = [&](const ScatterPoint& q, Vec3 d) { return luminance(c.brdf->eval(q, d)); };
-      const double noise = 2 + wobble(p, toNext, f) / kEpsilon;
-      ++asked;
-      const auto expected = trustedDifference(logF, step, allowed, noise);
-      if (!expected) continue;
-      ++judged;
-      worst.see(std::abs(found - double(*expected)) / allowed, [&] {
-        std::ostringstream text;
-        text << told(next ? "slope by next" : "slope by prev", found, double(*expected))
-             << ", toNext " << toNext;
-        return eventLine(c, p, n, text.str());
-      });
-    }
-  });
-  check(worst);
-  CHECK(judged > asked / 3);
-}
-
-// ------------------------------------------------------------------------------------ fuzz
-
-namespace {
-
-/// Numbers that a sampler may draw, the ends of the interval often.
-Real harsh(Random& r) {
-  switch (int(r.number() * 8)) {
-    case 0:
-      return 0;
-    case 1:
-      return kOneMinusEpsilon;
-    case 2:
-      return Real(0.5);
-    default:
-      return r.number();
-  }
-}
-
-/// Heights down to the smallest number, often.
-Vec3 harshDirection(Random& r) {
-  const Real z = r.number() < Real(0.25) ? Real(1) : std::pow(Real(10), -36 * sqr(harsh(r)));
-  return r.number() < Real(0.1) ? Vec3{0, 0, 1} : atHeight(z, r);
-}
-
-bool isFinite(const Mat3& m) { return isFinite(m.c[0]) && isFinite(m.c[1]) && isFinite(m.c[2]); }
-bool isColour(Rgb c) { return isFinite(c) && c.r >= 0 && c.g >= 0 && c.b >= 0; }
-bool isDensity(Real x) { return std::isfinite(x) && x >= 0; }
-
-/// The promise that a sample breaks, or "".
-std::string brokenPromise(const ScatterSample& s) {
-  if (!(std::abs(length(s.toNext) - 1) < Real(1e-3))) return "toNext is no unit vector";
-  if (!isColour(s.weight)) return "the weight is no colour";
-  if (!s.specular && !(s.pdf > 0 && std::isfinite(s.pdf))) return "pdf is not positive";
-  if (!s.specular && !(s.lobePdf > 0 && std::isfinite(s.lobePdf))) return "lobePdf is not positive";
-  if (!(s.lobeChance > 0 && s.lobeChance <= 1)) return "lobeChance is no probability";
-  return "";
-}
-
-std::string brokenPromise(const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Vec3 other) {
-  const auto s = c.brdf->sample(p, n);
-  if (s)
-    if (const std::string broken = brokenPromise(*s); !broken.empty()) return broken;
-  const ScatterJacobian j = c.brdf->sampleDerivatives(p, n);
-  if (s && !(isFinite(j.du.c[0]) && isFinite(j.du.c[1]))) return "du is not finite";
-  if (s && !isFinite(j.dPrev)) return "dPrev is not finite";
-  for (const Vec3 toNext : {s ? s->toNext : other, other}) {
-    if (!isColour(c.brdf->eval(p, toNext))) return "f is no colour";
-    if (!isDensity(c.brdf->pdf(p, toNext))) return "pdf() is no density";
-    const LogGradient g = c.brdf->logGradient(p, toNext);
-    if (!isFinite(g.dPrev) || !isFinite(g.dNext)) return "logGradient is not finite";
-    const Real scale = c.brdf->etaScale(p, toNext);
-    if (!(scale > 0) || !std::isfinite(scale)) return "etaScale is not positive";
-  }
-  return "";
-}
-
-void fuzz(int events) {
-  const std::vector<BrdfCase> cases = brdfCases(40);
-  Random r(6);
-  for (int i = 0; i < events; ++i) {
-    const BrdfCase& c = cases[std::size_t(r.number() * Real(cases.size()))];
-    const Vec3 toPrev = harshDirection(r), far = harshDirection(r);
-    const Vec3 other = r.number() < Real(0.5) ? far : Vec3{far.x, far.y, -far.z};
-    const Real lobe = harsh(r), ux = harsh(r);
-    const ScatterNumbers n = {lobe, {ux, harsh(r)}};
-    const ScatterPoint p = c.at(toPrev, r.number() < Real(0.5));
-    const std::string broken = brokenPromise(c, p, n, other);
-    if (broken.empty()) continue;
-    std::ostringstream text;
-    text << broken << "; other toNext " << other;
-    FAIL(eventLine(c, p, n, text.str()));
-  }
-  SUCCEED();
-}
-
-}  // namespace
-
-TEST_CASE("nothing is ever infinite, negative or not a number", "[brdf][fuzz]") { fuzz(1000000); }
-
-TEST_CASE("nothing is ever infinite, for long", "[brdf][fuzz][slow]") { fuzz(100000000); }

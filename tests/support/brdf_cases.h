@@ -146,34 +146,4 @@ inline BrdfCase brdfCase(const std::string& name, const Settings& s) {
           plugin.schema->find("ior") != nullptr};
 }
 
-/// The largest error of a test and the event that made it.
-struct WorstEvent {
-  double error = 0;  ///< in units of what is allowed: above 1 is a failure
-  std::string event;
-  int events = 0;
-
-  /// `describe` is called only for a new worst event. NaN is the worst of all.
-  template <class Describe>
-  void see(double e, const Describe& describe) {
-    ++events;
-    if (e <= error) return;
-    error = std::isnan(e) ? HUGE_VAL : e;
-    event = describe();
-  }
-};
-
-inline std::ostream& operator<<(std::ostream& o, Vec3 v) {
-  return o << "<" << v.x << ", " << v.y << ", " << v.z << ">";
-}
-
-/// An event as text with all digits.
-inline std::string eventLine(const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n,
-                             const std::string& what) {
-  std::ostringstream text;
-  text.precision(9);
-  text << c.title() << "  toPrev " << p.toPrev << (p.inside ? " inside" : " outside") << "  lobe "
-       << n.lobe << "  u <" << n.u.x << ", " << n.u.y << ">: " << what;
-  return text.str();
-}
-
 }  // namespace vestige::test
