@@ -43,10 +43,7 @@ void countBlocks(Context& context, const Block& block, const Span& span) {
     context.reporter.stop(span, "this scene has more than " +
                                     std::to_string(context.options.limits.blocks) +
                                     " blocks: --max-blocks raises the limit");
-  if (depth + context.nesting > context.options.limits.nesting)
-    context.reporter.stop(span, "blocks are nested more than " +
-                                    std::to_string(context.options.limits.nesting) +
-                                    " deep: --max-nesting raises the limit");
+  if (depth + context.nesting > context.deepest()) context.stopTooDeep(span, "these blocks are");
 }
 
 BlockBuilder::BlockBuilder(Context& context, const Schema& schema, const Span& head)
@@ -124,7 +121,7 @@ void BlockBuilder::store(const Parameter& row, const Span& nameSpan, Value value
 void BlockBuilder::add(Block child) {
   int depth = 0;
   measure(child, 1, depth);
-  if (depth >= context_.options.limits.nesting) countBlocks(context_, child, child.span);
+  if (depth >= context_.deepest()) countBlocks(context_, child, child.span);
   block_.children.push_back(std::move(child));
 }
 

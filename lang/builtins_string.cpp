@@ -22,8 +22,8 @@ std::string layout(double x, int width, int digits) {
   const bool zeros = width < 0;
   width = std::min(std::abs(std::max(width, -kWidest)), kWidest);
   digits = digits < 0 ? 6 : std::min(digits, kWidest);
-  std::string s(std::size_t(std::snprintf(nullptr, 0, zeros ? "%0*.*f" : "%*.*f", width, digits, x)),
-                '\0');
+  std::string s(
+      std::size_t(std::snprintf(nullptr, 0, zeros ? "%0*.*f" : "%*.*f", width, digits, x)), '\0');
   std::snprintf(s.data(), s.size() + 1, zeros ? "%0*.*f" : "%*.*f", width, digits, x);
   return s;
 }

@@ -61,14 +61,12 @@ std::vector<Builtin> vectorBuiltins() {
       {"dimensions", "a", dimensions},
       {"vaxis_rotate", "vvn", rotateAxis},
       {"vcross", "vv", crossProduct},
-      {"vdot", "vv", [](const Call& c) -> Datum { return Numbers(dot3(c.vector(0), c.vector(1))); }},
+      {"vdot", "vv",
+       [](const Call& c) -> Datum { return Numbers(dot3(c.vector(0), c.vector(1))); }},
       {"vlength", "v",
-       [](const Call& c) -> Datum {
-         return Numbers(std::sqrt(dot3(c.vector(0), c.vector(0))));
-       }},
+       [](const Call& c) -> Datum { return Numbers(std::sqrt(dot3(c.vector(0), c.vector(0)))); }},
       {"vnormalize", "v", normalise},
-      {"vrotate", "vv",
-       [](const Call& c) { return moved(rotation(c.vector(1)), c.vector(0)); }},
+      {"vrotate", "vv", [](const Call& c) { return moved(rotation(c.vector(1)), c.vector(0)); }},
   };
 }
 

@@ -13,6 +13,10 @@
 
 namespace vestige::lang {
 
+/// A level of braces or parentheses takes about 3 kB of the stack, which has 8 MB on Linux; twice
+/// that where a sanitizer looks on.
+inline constexpr int kDeepestNesting = 1000;
+
 struct Context {
   Context(const Options& o, std::span<const Schema> s, Sources& t, Diagnostics& d)
       : options(o), schemas(s), sources(t), reporter(d, o.limits.errors) {}
@@ -29,11 +33,19 @@ struct Context {
   std::int64_t blocks = 0;             ///< made so far, copies included
   std::shared_ptr<std::int64_t> elements = std::make_shared<std::int64_t>(0);  ///< of live arrays
   std::shared_ptr<std::int64_t> longText = std::make_shared<std::int64_t>(0);  ///< live bytes
-  std::int64_t steps = 0;              ///< tokens read and functions evaluated
+  std::int64_t steps = 0;  ///< tokens read and functions evaluated
   std::function<bool(const std::string&)> fileExists;
   /// The file of the include paths that declares a name, or "".
   std::function<std::string(const std::string&)> declaredIn;
 
+  /// Levels of nesting that are taken: what the limit says, but no more than the stack can bear.
+  int deepest() const { return std::min(options.limits.nesting, kDeepestNesting); }
+  [[noreturn]] void stopTooDeep(const Span& span, const std::string& whatIs) {
+    reporter.stop(
+        span, whatIs + " nested more than " + std::to_string(deepest()) + " deep" +
+                  (options.limits.nesting < kDeepestNesting ? ": --max-nesting raises the limit"
+                                                            : ", which is too much for any scene"));
+  }
   void checkElements(const Span& span) {
     if (*elements > std::int64_t(options.limits.arrayElements))
       reporter.stop(span, "the arrays of this scene have more than " +
@@ -54,9 +66,7 @@ struct Context {
 class Nested {
  public:
   Nested(Context& c, const Span& span) : context_(c) {
-    if (c.nesting >= c.options.limits.nesting)
-      c.reporter.stop(span, "nested more than " + std::to_string(c.options.limits.nesting) +
-                                " deep: --max-nesting raises the limit");
+    if (c.nesting >= c.deepest()) c.stopTooDeep(span, "this is");
     ++c.nesting;
   }
   ~Nested() { --context_.nesting; }

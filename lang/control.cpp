@@ -61,8 +61,7 @@ bool Directives::isDefined() {
     const auto* array = cell ? std::get_if<ArrayPtr>(&cell->value) : nullptr;
     const Numbers* n = numbers(index.value);
     isKnown = array && n && (*array)->sizes.size() == 1 && n->v[0] >= 0 &&
-              n->v[0] < (*array)->sizes[0] &&
-              !isBroken((*array)->data[std::size_t(n->v[0])]);
+              n->v[0] < (*array)->sizes[0] && !isBroken((*array)->data[std::size_t(n->v[0])]);
   }
   parser_.expressions().expect(")", open, "(");
   return isKnown;
@@ -142,8 +141,8 @@ void Directives::forLoop(const Token& directive) {
       const Numbers* n = numbers(bound.value);
       if (!n || n->size != 1) {
         if (!isBroken(bound.value))
-          context_.reporter.error(bound.span, "#for counts with numbers, found " +
-                                                  describe(bound.value));
+          context_.reporter.error(bound.span,
+                                  "#for counts with numbers, found " + describe(bound.value));
         throw SyntaxError{};
       }
       bounds[given] = n->v[0];
@@ -170,15 +169,16 @@ bool Directives::isWithin(const OpenDirective& loop, const Span& span) {
   countLoop(span);
   const Numbers* n = numbers(loop.counter->value);
   if (!n || n->size != 1) {
-    context_.reporter.error(span, "the counter of this #for has become " +
-                                      describe(loop.counter->value));
+    context_.reporter.error(span,
+                            "the counter of this #for has become " + describe(loop.counter->value));
     return false;
   }
   return loop.step > 0 ? n->v[0] <= loop.last + kTruth : n->v[0] >= loop.last - kTruth;
 }
 
 // ---------------------------------------------------------------- #switch
-// '#switch' condition { ('#case' '(' x ')' | '#range' '(' low ',' high ')') … } [ '#else' … ] '#end'
+// '#switch' condition { ('#case' '(' x ')' | '#range' '(' low ',' high ')') … } [ '#else' … ]
+// '#end'
 void Directives::choice(const Token&) {
   const std::uint32_t first = here();
   const std::size_t depth = stream_.frames().size();
@@ -210,8 +210,8 @@ bool Directives::caseMatches(const std::string& word, double x) {
     const Numbers* n = numbers(bound.value);
     if (!n || n->size != 1) {
       if (!isBroken(bound.value))
-        context_.reporter.error(bound.span, "#" + word + " takes a number, found " +
-                                                describe(bound.value));
+        context_.reporter.error(bound.span,
+                                "#" + word + " takes a number, found " + describe(bound.value));
       throw SyntaxError{};
     }
     bounds[i] = n->v[0];

@@ -30,15 +30,23 @@ class Converter {
     switch (row_.type) {
       case ValueType::real:
       case ValueType::integer:
-      case ValueType::boolean: return number();
-      case ValueType::rgb: return colour();
-      case ValueType::vec2: return vector(2);
-      case ValueType::vec3: return vector(3);
-      case ValueType::vec4: return vector(4);
+      case ValueType::boolean:
+        return number();
+      case ValueType::rgb:
+        return colour();
+      case ValueType::vec2:
+        return vector(2);
+      case ValueType::vec3:
+        return vector(3);
+      case ValueType::vec4:
+        return vector(4);
       case ValueType::text:
-      case ValueType::file: return text();
-      case ValueType::choice: return choice();
-      case ValueType::block: return mismatch();
+      case ValueType::file:
+        return text();
+      case ValueType::choice:
+        return choice();
+      case ValueType::block:
+        return mismatch();
     }
     return {};
   }
@@ -134,17 +142,28 @@ std::string expectation(const Parameter& row) {
   const std::string unit = row.unit.empty() ? "" : " (" + row.unit + ")";
   const std::string pigment = row.texturable ? " or a pigment" : "";
   switch (row.type) {
-    case ValueType::real: return "a number" + unit + pigment;
-    case ValueType::integer: return "a whole number" + unit;
-    case ValueType::boolean: return "true or false";
-    case ValueType::rgb: return "a colour" + unit + pigment;
-    case ValueType::vec2: return "two numbers <a, b>" + unit + pigment;
-    case ValueType::vec3: return "a vector <a, b, c>" + unit + pigment;
-    case ValueType::vec4: return "four numbers <a, b, c, d>" + unit + pigment;
-    case ValueType::text: return "a \"string\"";
-    case ValueType::file: return "a \"file name\"";
-    case ValueType::choice: return orList(row.choices);
-    case ValueType::block: return "a " + row.blockKind;
+    case ValueType::real:
+      return "a number" + unit + pigment;
+    case ValueType::integer:
+      return "a whole number" + unit;
+    case ValueType::boolean:
+      return "true or false";
+    case ValueType::rgb:
+      return "a colour" + unit + pigment;
+    case ValueType::vec2:
+      return "two numbers <a, b>" + unit + pigment;
+    case ValueType::vec3:
+      return "a vector <a, b, c>" + unit + pigment;
+    case ValueType::vec4:
+      return "four numbers <a, b, c, d>" + unit + pigment;
+    case ValueType::text:
+      return "a \"string\"";
+    case ValueType::file:
+      return "a \"file name\"";
+    case ValueType::choice:
+      return orList(row.choices);
+    case ValueType::block:
+      return "a " + row.blockKind;
   }
   return {};
 }

@@ -52,13 +52,13 @@ std::optional<Numbers> Parser::transformVector(const std::string& word, Span& sp
   if (isBroken(result.value)) return {};
   const Numbers* n = numbers(result.value);
   if (!n || n->isColour || n->size > 3) {
-    context_.reporter.error(span, "'" + word + "' takes a vector <x, y, z>, found " +
-                                      describe(result.value));
+    context_.reporter.error(
+        span, "'" + word + "' takes a vector <x, y, z>, found " + describe(result.value));
     return {};
   }
   if (!std::isfinite(n->at(0) + n->at(1) + n->at(2))) {
-    context_.reporter.error(span, "'" + word + "' takes finite numbers, found " +
-                                      describe(result.value));
+    context_.reporter.error(span,
+                            "'" + word + "' takes finite numbers, found " + describe(result.value));
     return {};
   }
   return *n;
@@ -72,14 +72,14 @@ Affine Parser::matrix() {
   bool isWhole = true;
   for (int i = 0; i < 12; ++i) {
     if (stream_.peek().is(">"))
-      context_.reporter.syntaxError(stream_.peek().span, "a matrix has 12 numbers, found " +
-                                                             std::to_string(i));
+      context_.reporter.syntaxError(stream_.peek().span,
+                                    "a matrix has 12 numbers, found " + std::to_string(i));
     const auto result = expressions_.evaluate(ExpressionParser::Place::setting);
     const Numbers* n = numbers(result.value);
     const bool isNumber = n && n->size == 1 && std::isfinite(n->v[0]);
     if (!isNumber && !isBroken(result.value))
-      context_.reporter.error(result.span, "a matrix is made of finite numbers, found " +
-                                               describe(result.value));
+      context_.reporter.error(
+          result.span, "a matrix is made of finite numbers, found " + describe(result.value));
     if (isNumber) rows[i] = n->v[0];
     isWhole &= isNumber;
     stream_.accept(",");
@@ -174,8 +174,8 @@ Parser::Declared Parser::array() {
     const Numbers* n = numbers(size.value);
     if (!n || n->size != 1 || !(n->v[0] >= 1)) {
       if (!isBroken(size.value))
-        context_.reporter.error(size.span, "an array's size is a number from 1, found " +
-                                               describe(size.value));
+        context_.reporter.error(
+            size.span, "an array's size is a number from 1, found " + describe(size.value));
       throw SyntaxError{};
     }
     const double wanted = double(total) * std::trunc(n->v[0]);
@@ -209,7 +209,8 @@ void Parser::elements(Array& array, std::size_t level, std::size_t first) {
   const bool isOpenEnded = array.sizes.empty();
   const bool isInner = level + 1 < array.sizes.size();
   std::size_t stride = 1;
-  for (std::size_t i = level + 1; i < array.sizes.size(); ++i) stride *= std::size_t(array.sizes[i]);
+  for (std::size_t i = level + 1; i < array.sizes.size(); ++i)
+    stride *= std::size_t(array.sizes[i]);
   const std::size_t size = isOpenEnded ? 0 : std::size_t(array.sizes[level]);
   for (std::size_t i = 0; !stream_.peek().is("}"); ++i) {
     if (!isOpenEnded && i >= size)

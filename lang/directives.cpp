@@ -9,17 +9,17 @@ namespace vestige::lang {
 
 Directives::Handler Directives::handlerOf(const std::string& word) {
   static const std::map<std::string, Handler> all = {
-      {"declare", &Directives::declare},   {"local", &Directives::declare},
-      {"undef", &Directives::undefine},    {"if", &Directives::ifBranch},
-      {"ifdef", &Directives::ifBranch},    {"ifndef", &Directives::ifBranch},
-      {"while", &Directives::whileLoop},   {"for", &Directives::forLoop},
-      {"switch", &Directives::choice},     {"else", &Directives::nextPart},
-      {"elseif", &Directives::nextPart},   {"case", &Directives::nextPart},
-      {"range", &Directives::nextPart},    {"end", &Directives::end},
-      {"break", &Directives::leave},       {"macro", &Directives::macro},
-      {"include", &Directives::include},   {"debug", &Directives::message},
-      {"render", &Directives::message},    {"statistics", &Directives::message},
-      {"warning", &Directives::message},   {"error", &Directives::message},
+      {"declare", &Directives::declare}, {"local", &Directives::declare},
+      {"undef", &Directives::undefine},  {"if", &Directives::ifBranch},
+      {"ifdef", &Directives::ifBranch},  {"ifndef", &Directives::ifBranch},
+      {"while", &Directives::whileLoop}, {"for", &Directives::forLoop},
+      {"switch", &Directives::choice},   {"else", &Directives::nextPart},
+      {"elseif", &Directives::nextPart}, {"case", &Directives::nextPart},
+      {"range", &Directives::nextPart},  {"end", &Directives::end},
+      {"break", &Directives::leave},     {"macro", &Directives::macro},
+      {"include", &Directives::include}, {"debug", &Directives::message},
+      {"render", &Directives::message},  {"statistics", &Directives::message},
+      {"warning", &Directives::message}, {"error", &Directives::message},
       {"version", &Directives::version}};
   const auto found = all.find(word);
   return found == all.end() ? nullptr : found->second;
@@ -35,14 +35,14 @@ void Directives::obey(const Token& directive) {
       return;
     }
     static const std::vector<std::string> known = {
-        "#declare", "#local", "#undef", "#if",    "#ifdef", "#ifndef", "#while",
-        "#for",     "#switch", "#else", "#elseif", "#case", "#range",  "#end",
-        "#break",   "#macro",  "#include", "#debug", "#warning", "#error", "#version"};
+        "#declare", "#local",  "#undef",   "#if",     "#ifdef",   "#ifndef", "#while",
+        "#for",     "#switch", "#else",    "#elseif", "#case",    "#range",  "#end",
+        "#break",   "#macro",  "#include", "#debug",  "#warning", "#error",  "#version"};
     const char* instead = insteadOf("#" + *directive.text);
-    context_.reporter.syntaxError(directive.span, "no directive is called '#" + *directive.text +
-                                                      "'" +
-                                                      (instead ? std::string(": ") + instead
-                                                               : didYouMean("#" + *directive.text, known)));
+    context_.reporter.syntaxError(
+        directive.span,
+        "no directive is called '#" + *directive.text + "'" +
+            (instead ? std::string(": ") + instead : didYouMean("#" + *directive.text, known)));
   } catch (const SyntaxError&) {
     skipStatement(directive, level);
   }
@@ -72,8 +72,8 @@ void Directives::skipStatement(const Token& directive, int level) {
 Token Directives::plainName(const std::string& before) {
   const Token name = stream_.nextRaw();
   if (name.kind == Token::Kind::name) return name;
-  context_.reporter.syntaxError(name.span, "expected a name after " + before + ", found " +
-                                               describe(name, context_.sources));
+  context_.reporter.syntaxError(
+      name.span, "expected a name after " + before + ", found " + describe(name, context_.sources));
 }
 
 /// A name that may be given a meaning.
@@ -83,13 +83,14 @@ Token Directives::newName(const Token& directive) {
   if (context_.symbols.find(name.text)) return name;
   if (const char* instead = insteadOf(word))
     context_.reporter.syntaxError(name.span, "'" + word + "' is a word of POV-Ray's: " + instead);
-  const bool isTaken = isExpressionWord(word) || isTransformWord(word) ||
-                       parser_.words().opensBlock(word);
+  const bool isTaken =
+      isExpressionWord(word) || isTransformWord(word) || parser_.words().opensBlock(word);
   // (Parameters of macros may be called like u and v, and then be assigned to: found above.)
   if (isTaken && word != "clock")
-    context_.reporter.syntaxError(name.span, "'" + word + "' is a word of the language and cannot "
-                                                          "be declared; a name with a capital "
-                                                          "letter never is");
+    context_.reporter.syntaxError(name.span, "'" + word +
+                                                 "' is a word of the language and cannot "
+                                                 "be declared; a name with a capital "
+                                                 "letter never is");
   return name;
 }
 
@@ -145,8 +146,8 @@ void Directives::assignElement(const Token& directive, const Token& name) {
   }
   if (!stream_.acceptRaw("=")) {
     const Token found = stream_.peekRaw();
-    context_.reporter.syntaxError(found.span, "expected '=' in '#" + *directive.text +
-                                                  "', found " + describe(found, context_.sources));
+    context_.reporter.syntaxError(found.span, "expected '=' in '#" + *directive.text + "', found " +
+                                                  describe(found, context_.sources));
   }
   Datum value = parser_.value(ExpressionParser::Place::declaration).value;
   needSemicolon(value, *name.text);
@@ -203,11 +204,11 @@ void Directives::macro(const Token& directive) {
 void Directives::macroParameters(Macro& m) {
   const Span open = stream_.peekRaw().span;
   if (!stream_.acceptRaw("("))
-    context_.reporter.syntaxError(open, "expected '(' and the parameters after '#macro " + *m.name +
-                                            "'");
+    context_.reporter.syntaxError(open,
+                                  "expected '(' and the parameters after '#macro " + *m.name + "'");
   while (!stream_.peekRaw().is(")")) {
-    const bool isOptional = stream_.peekRaw().isWord("optional") &&
-                            stream_.peekRaw(1).kind == Token::Kind::name;
+    const bool isOptional =
+        stream_.peekRaw().isWord("optional") && stream_.peekRaw(1).kind == Token::Kind::name;
     if (isOptional) stream_.nextRaw();
     Macro::Parameter p{plainName("'(' or ','").text, isOptional};
     if (stream_.acceptRaw("=")) {
@@ -234,7 +235,8 @@ bool Directives::expand(const Token& name) {
   const Nested nested(context_, name.span);
   checkMacroDepth(name);
   if (!stream_.peekRaw().is("("))
-    context_.reporter.syntaxError(name.span, "'" + *name.text + "' is a macro: its arguments "
+    context_.reporter.syntaxError(name.span, "'" + *name.text +
+                                                 "' is a macro: its arguments "
                                                  "follow in parentheses, as in " +
                                                  *name.text + "(...)");
   const Span open = stream_.nextRaw().span;
@@ -256,16 +258,19 @@ bool Directives::expand(const Token& name) {
         .notes.push_back({m->declared, "it is declared here"});
     return true;  // as if it were empty
   }
-  Frame frame{Frame::Kind::macro, m->list, m->begin, m->end,
-              context_.sources.expand(Expansion::Kind::macro, *name.text, call), -1};
+  Frame frame{Frame::Kind::macro,
+              m->list,
+              m->begin,
+              m->end,
+              context_.sources.expand(Expansion::Kind::macro, *name.text, call),
+              -1};
   stream_.push(std::move(frame));
   for (std::size_t i = 0; i < m->parameters.size(); ++i) {
     const auto& p = m->parameters[i];
     if (i < cells.size())
       context_.symbols.top()[p.name] = cells[i];
     else if (!isBroken(p.initial))
-      context_.symbols.top()[p.name] =
-          std::make_shared<Symbol>(Symbol{p.initial, m->declared});
+      context_.symbols.top()[p.name] = std::make_shared<Symbol>(Symbol{p.initial, m->declared});
   }
   return true;
 }
@@ -300,8 +305,8 @@ std::optional<std::string> Directives::text(const Token& directive, Span& span) 
   span = result.span;
   if (const auto* s = std::get_if<TextPtr>(&result.value)) return **s;
   if (!isBroken(result.value))
-    context_.reporter.error(span, "#" + *directive.text + " takes a string, found " +
-                                      describe(result.value));
+    context_.reporter.error(
+        span, "#" + *directive.text + " takes a string, found " + describe(result.value));
   return {};
 }
 
@@ -314,8 +319,9 @@ void Directives::include(const Token& directive) {
   const std::string path = includes_.find(*name, directive.span.file, tried);
   if (path.empty()) return missingInclude(*name, span, tried);
   if (!includes_.isAllowed(path)) {
-    context_.reporter.error(span, "'" + path + "' lies outside the scene's folder and the include "
-                                               "paths, which --sandbox forbids");
+    context_.reporter.error(span, "'" + path +
+                                      "' lies outside the scene's folder and the include "
+                                      "paths, which --sandbox forbids");
     return;
   }
   const auto file = includes_.load(path);
@@ -376,7 +382,8 @@ void Directives::version(const Token&) {
   if (const Numbers* n = numbers(result.value))
     context_.version = n->v[0];
   else if (!isBroken(result.value))
-    context_.reporter.error(result.span, "#version takes a number, found " + describe(result.value));
+    context_.reporter.error(result.span,
+                            "#version takes a number, found " + describe(result.value));
   stream_.acceptRaw(";");
 }
 

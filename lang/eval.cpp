@@ -11,7 +11,7 @@ namespace {
 
 /// Levels of evaluation for each level of nesting that the limits allow: an expression in
 /// parentheses passes some of them.
-constexpr int kLevelsPerNesting = 16;
+constexpr int kLevelsPerNesting = 4;
 
 /// IEC 61966-2-1, also below zero, where it is continued as an odd function.
 double decodeSrgb(double x) {
@@ -38,25 +38,35 @@ double grey(const Numbers& n) { return 0.297 * n.v[0] + 0.589 * n.v[1] + 0.114 *
 }  // namespace
 
 Datum Evaluator::evaluate(const Expr& e, Arguments a) {
-  if (depth_ > context_.options.limits.nesting * kLevelsPerNesting)
-    context_.reporter.stop(e.span,
-                           "functions call each other too deeply here: --max-nesting raises the "
-                           "limit");
+  if (depth_ > context_.deepest() * kLevelsPerNesting)
+    context_.stopTooDeep(e.span, "these functions are");
   ++depth_;
   const auto step = [&]() -> Datum {
     switch (e.kind) {
-      case Expr::Kind::constant: return e.value;
-      case Expr::Kind::parameter: return Numbers(a[std::size_t(e.slot)]);
-      case Expr::Kind::unary: return unary(e, a);
-      case Expr::Kind::binary: return binary(e, a);
-      case Expr::Kind::choose: return choose(e, a);
-      case Expr::Kind::vector: return vector(e, a);
-      case Expr::Kind::colour: return colour(e, a);
-      case Expr::Kind::channels: return channels(e, a);
-      case Expr::Kind::member: return member(e, a);
-      case Expr::Kind::index: return index(e, a);
-      case Expr::Kind::builtin: return builtin(e, a);
-      case Expr::Kind::invoke: return invoke(e, a);
+      case Expr::Kind::constant:
+        return e.value;
+      case Expr::Kind::parameter:
+        return Numbers(a[std::size_t(e.slot)]);
+      case Expr::Kind::unary:
+        return unary(e, a);
+      case Expr::Kind::binary:
+        return binary(e, a);
+      case Expr::Kind::choose:
+        return choose(e, a);
+      case Expr::Kind::vector:
+        return vector(e, a);
+      case Expr::Kind::colour:
+        return colour(e, a);
+      case Expr::Kind::channels:
+        return channels(e, a);
+      case Expr::Kind::member:
+        return member(e, a);
+      case Expr::Kind::index:
+        return index(e, a);
+      case Expr::Kind::builtin:
+        return builtin(e, a);
+      case Expr::Kind::invoke:
+        return invoke(e, a);
     }
     return {};
   };
@@ -145,16 +155,17 @@ Datum Evaluator::colour(const Expr& e, Arguments a) {
   Numbers r;
   r.size = 5, r.isColour = true;
   if (n->size == 2) {
-    context_.reporter.error(e.args[0]->span, "a colour has at least three components, found " +
-                                                 describe(d));
+    context_.reporter.error(e.args[0]->span,
+                            "a colour has at least three components, found " + describe(d));
     return {};
   }
   const bool isBare = e.word == "color" || e.word == "colour";
   const bool isSrgb = e.word[0] == 's';
   const std::string tail = isBare ? "" : e.word.substr(isSrgb ? 4 : 3);  // "", f, t, ft
   if (isBare && n->size == 1)
-    context_.reporter.warning(e.span, "'" + e.word + "' with one number also sets filter and "
-                                      "transmit to it; write 'rgb' for a grey");
+    context_.reporter.warning(e.span, "'" + e.word +
+                                          "' with one number also sets filter and "
+                                          "transmit to it; write 'rgb' for a grey");
   const bool fillsAll = n->size > 1 || isBare || !tail.empty();
   for (int i = 0; i < (fillsAll ? 5 : 3); ++i) r.v[std::size_t(i)] = n->at(i);
   if (tail == "t" && n->size == 4) r.v[4] = r.v[3], r.v[3] = 0;
@@ -248,7 +259,8 @@ std::optional<std::size_t> elementAt(Context& context, const Array& array,
                                      const std::vector<Span>& spans) {
   if (indices.size() != array.sizes.size()) {
     context.reporter.error(spans[0], "this array has " + std::to_string(array.sizes.size()) +
-                                         (array.sizes.size() == 1 ? " dimension" : " dimensions") + ", found " + std::to_string(indices.size()) +
+                                         (array.sizes.size() == 1 ? " dimension" : " dimensions") +
+                                         ", found " + std::to_string(indices.size()) +
                                          (indices.size() == 1 ? " index" : " indices"));
     return {};
   }

@@ -13,21 +13,27 @@ constexpr int kDeepTree = 64;
 /// A function's tree has to stay.
 constexpr int kDeepestFunction = 250;
 
-constexpr const char* kSwizzles[] = {"x",   "y",     "z",    "t",      "u",        "v",   "red",
+constexpr const char* kSwizzles[] = {"x",     "y",    "z",      "t",        "u",    "v",   "red",
                                      "green", "blue", "filter", "transmit", "gray", "grey"};
 
 bool isColourWord(const Token& t) {
   if (t.kind != Token::Kind::name) return false;
-  static const std::set<std::string> words = {"rgb",  "rgbf",  "rgbt",  "rgbft", "srgb",
+  static const std::set<std::string> words = {"rgb",   "rgbf",  "rgbt",   "rgbft", "srgb",
                                               "srgbf", "srgbt", "srgbft", "color", "colour"};
   return words.count(*t.text) > 0;
 }
 
 /// x, pi, true, ...; std::monostate: not a constant.
 Datum constantOf(const std::string& word, double version) {
-  static const std::map<std::string, double> numbers = {
-      {"pi", 3.14159265358979323846}, {"tau", 6.28318530717958647692}, {"true", 1}, {"yes", 1},
-      {"on", 1}, {"false", 0}, {"no", 0}, {"off", 0}, {"clock", 0}};
+  static const std::map<std::string, double> numbers = {{"pi", 3.14159265358979323846},
+                                                        {"tau", 6.28318530717958647692},
+                                                        {"true", 1},
+                                                        {"yes", 1},
+                                                        {"on", 1},
+                                                        {"false", 0},
+                                                        {"no", 0},
+                                                        {"off", 0},
+                                                        {"clock", 0}};
   if (word == "version") return Numbers(version);
   if (const auto n = numbers.find(word); n != numbers.end()) return Numbers(n->second);
   static const std::map<std::string, std::pair<int, int>> axes = {
@@ -42,8 +48,8 @@ Datum constantOf(const std::string& word, double version) {
 
 /// Directives that do something by themselves, unlike #if or #end, which choose what is read.
 bool isStatement(const Token& t) {
-  static const std::set<std::string> words = {"declare", "local", "undef", "macro", "include",
-                                              "debug", "warning", "error", "version"};
+  static const std::set<std::string> words = {"declare", "local",   "undef", "macro",  "include",
+                                              "debug",   "warning", "error", "version"};
   return t.kind == Token::Kind::directive && words.count(*t.text) > 0;
 }
 
@@ -65,8 +71,8 @@ class ExpressionParser::With {
 
 // ---------------------------------------------------------------- from outside
 ExpressionParser::Result ExpressionParser::evaluate(Place place) {
-  const With mode(*this, {place != Place::setting, place == Place::declaration,
-                          stream_.frame().via});
+  const With mode(*this,
+                  {place != Place::setting, place == Place::declaration, stream_.frame().via});
   const Function* around = std::exchange(function_, nullptr);
   const ExprPtr e = expression();
   function_ = around;
@@ -121,11 +127,11 @@ void ExpressionParser::expect(const char* sign, const Span& open, const char* op
   const int line = context_.sources.lineOf(open.file, open.begin);
   const bool sameLine = open.file == found.span.file &&
                         line == context_.sources.lineOf(found.span.file, found.span.begin);
-  const std::string closes = "to close '" + std::string(opener) + "' at line " +
-                             std::to_string(line + 1);
-  Diagnostic& d = context_.reporter.error(
-      found.span, "expected '" + std::string(sign) + "' (" + closes + "), found " +
-                      describe(found, context_.sources));
+  const std::string closes =
+      "to close '" + std::string(opener) + "' at line " + std::to_string(line + 1);
+  Diagnostic& d =
+      context_.reporter.error(found.span, "expected '" + std::string(sign) + "' (" + closes +
+                                              "), found " + describe(found, context_.sources));
   if (!sameLine) d.notes.push_back({open, "'" + std::string(opener) + "' was opened here"});
   throw SyntaxError{};
 }
@@ -136,8 +142,8 @@ void ExpressionParser::unexpected(const std::string& expected) {
     stream_.next();
     context_.reporter.syntaxError(found.span, *found.text);
   }
-  context_.reporter.syntaxError(found.span, "expected " + expected + ", found " +
-                                                describe(found, context_.sources));
+  context_.reporter.syntaxError(
+      found.span, "expected " + expected + ", found " + describe(found, context_.sources));
 }
 
 void ExpressionParser::undeclared(const Token& name, const std::string& role) {
@@ -147,9 +153,9 @@ void ExpressionParser::undeclared(const Token& name, const std::string& role) {
   const std::string file = context_.declaredIn ? context_.declaredIn(*name.text) : "";
   if (!file.empty()) hint = ": it is declared in '" + file + "', which is not included";
   const char* instead = insteadOf(*name.text);
-  context_.reporter.error(name.span,
-                          instead ? "'" + *name.text + "' is a word of POV-Ray's: " + instead
-                                  : "no " + role + " is called '" + *name.text + "'" + hint);
+  context_.reporter.error(name.span, instead
+                                         ? "'" + *name.text + "' is a word of POV-Ray's: " + instead
+                                         : "no " + role + " is called '" + *name.text + "'" + hint);
 }
 
 // ---------------------------------------------------------------- building
@@ -336,8 +342,9 @@ ExprPtr ExpressionParser::vector() {
   if (!stream_.acceptVectorEnd()) expect(">", open, "<");
   const Span whole = context_.sources.join(open, stream_.last());
   if (args.size() < 2)
-    context_.reporter.syntaxError(whole, "a vector has 2 to 5 components, found one; "
-                                         "write a plain number instead");
+    context_.reporter.syntaxError(whole,
+                                  "a vector has 2 to 5 components, found one; "
+                                  "write a plain number instead");
   return node(Expr::Kind::vector, whole, "<", std::move(args));
 }
 
@@ -404,8 +411,8 @@ ExprPtr ExpressionParser::call(const Token& name, const Datum& symbol) {
   if (builtin && !builtin->isPure && function_)
     context_.reporter.error(name.span, *name.text + "() cannot stand inside a function");
   // Where no argument is a vector, '<' can only compare, even if a comma was left out.
-  const bool takesVectors = builtin && std::string_view(builtin->signature).find('v') !=
-                                           std::string_view::npos;
+  const bool takesVectors =
+      builtin && std::string_view(builtin->signature).find('v') != std::string_view::npos;
   const With mode(*this, {!takesVectors, false, -1});
   std::vector<ExprPtr> args;
   while (!stream_.peek().is(")")) {

@@ -15,7 +15,7 @@ class Includes {
   Includes(Context& context, const std::string& sceneFile);
 
   struct File {
-    int file = -1;                    ///< in Sources
+    int file = -1;  ///< in Sources
     const TokenList* tokens = nullptr;
   };
   /// A text under a name, tokenised.

@@ -73,8 +73,7 @@ Result readSceneText(const std::string& name, const std::string& text,
   return result;
 }
 
-Result readScene(const std::string& file, std::span<const Schema> schemas,
-                 const Options& options) {
+Result readScene(const std::string& file, std::span<const Schema> schemas, const Options& options) {
   const auto text = readFile(file);
   if (text) return readSceneText(file, *text, schemas, options);
   Result result;

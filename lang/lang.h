@@ -22,10 +22,10 @@ struct Limits {
   std::int64_t loopIterations = 10'000'000;  ///< of the whole run
   std::int64_t expandedTokens = 200'000'000;
   std::size_t stringLength = 1 << 20;
-  int errors = 20;  ///< then parsing stops
-  int nesting = 256;                        ///< of braces, parentheses, calls
-  std::int64_t blocks = 2'000'000;          ///< copies included
-  std::size_t arrayElements = 4'000'000;    ///< alive at one time
+  int errors = 20;                        ///< then parsing stops
+  int nesting = 256;                      ///< of braces, parentheses, calls
+  std::int64_t blocks = 2'000'000;        ///< copies included
+  std::size_t arrayElements = 4'000'000;  ///< alive at one time
 };
 
 struct Options {

@@ -127,8 +127,8 @@ class Lexer {
   }
   bool isTiny(std::size_t begin) const {
     return text_.substr(begin, at_ - begin).find("e-") != std::string::npos ||
-           text_.substr(begin, at_ - begin).find("E-") != std::string::npos || text_[begin] == '.' ||
-           text_[begin] == '0';
+           text_.substr(begin, at_ - begin).find("E-") != std::string::npos ||
+           text_[begin] == '.' || text_[begin] == '0';
   }
 
   Token string(std::size_t begin) {
@@ -248,7 +248,7 @@ void pair(TokenList& list, Reporter& reporter) {
       const bool wantsSwitch = *t.text == "case" || *t.text == "range";
       if (open.empty() || (wantsSwitch && !isSwitch(open.back()))) {
         reporter.error(t.span, "#" + *t.text + " without " +
-                                      (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
+                                   (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
         continue;
       }
       tokens[open.back().last].jump = i;

@@ -33,22 +33,24 @@ void Parser::statement(SceneDesc& scene) {
   } else if (t.kind != Token::Kind::name) {
     expressions_.unexpected("a camera, a light, a shape or a directive");
   } else if (const BlockPtr declared = declaredBlock(t)) {
-    context_.reporter.syntaxError(t.span, "expected a block, found the name of one: write 'object { " +
-                                              *t.text + " }'");
+    context_.reporter.syntaxError(
+        t.span, "expected a block, found the name of one: write 'object { " + *t.text + " }'");
   } else if (const char* instead = insteadOf(*t.text)) {
     context_.reporter.syntaxError(t.span, "'" + *t.text + "' is a word of POV-Ray's: " + instead);
   } else {
     std::vector<std::string> known = context_.symbols.names();
     for (const std::string& w : words_.blockWords()) known.push_back(w);
-    context_.reporter.syntaxError(t.span, "expected a camera, a light, a shape or a directive, found '" +
-                                              *t.text + "'" + didYouMean(*t.text, known));
+    context_.reporter.syntaxError(
+        t.span, "expected a camera, a light, a shape or a directive, found '" + *t.text + "'" +
+                    didYouMean(*t.text, known));
   }
 }
 
 void Parser::addToScene(SceneDesc& scene, Block block) {
   if (!words_.standsAlone(block.kind)) {
     const bool isBrdf = block.kind == "brdf";
-    context_.reporter.error(block.span, "a " + block.kind + " cannot stand alone: write it inside a " +
+    context_.reporter.error(block.span, "a " + block.kind +
+                                            " cannot stand alone: write it inside a " +
                                             (isBrdf ? "shape" : "block that uses it") +
                                             ", or '#declare Name = " + block.kind + " ...'");
     return;
@@ -112,7 +114,7 @@ Block Parser::finishBlock(Head head, Braces braces) {
   }
   if (head.isOpen)
     items(b, head.brace);
-  else if (braces == Braces::needed)
+  else if (braces == Braces::needed && !head.base)
     expressions_.unexpected("'{' after '" + b.title() + "'");
   return b.finish();
 }
@@ -253,11 +255,10 @@ void Parser::positional(BlockBuilder& b) {
     for (const Parameter& p : *rows)
       if (p.positional) names.push_back(p.name);
   context_.reporter.error(
-      result.span, names.empty()
-                       ? "'" + b.title() + "' takes no value without the name of a parameter"
-                       : "one value too many: '" + b.title() + "' takes " +
-                             std::to_string(names.size()) + " without names (" + orList(names) +
-                             ")");
+      result.span,
+      names.empty() ? "'" + b.title() + "' takes no value without the name of a parameter"
+                    : "one value too many: '" + b.title() + "' takes " +
+                          std::to_string(names.size()) + " without names (" + orList(names) + ")");
 }
 
 // parameter value := name (expression | word | pigment | block)
@@ -348,11 +349,10 @@ Parser::Next Parser::nested(BlockBuilder& b, const Token& t) {
                                        : ""));
   b.forgiveMissing();
   ++assumedBraces_;
-  context_.reporter.error(t.span, "expected '}' (to close '{' of '" + b.title() + "' at line " +
-                                      std::to_string(context_.sources.lineOf(b.head().file,
-                                                                             b.head().begin) +
-                                                     1) +
-                                      "), found '" + *t.text + "'");
+  context_.reporter.error(
+      t.span, "expected '}' (to close '{' of '" + b.title() + "' at line " +
+                  std::to_string(context_.sources.lineOf(b.head().file, b.head().begin) + 1) +
+                  "), found '" + *t.text + "'");
   return Next::closed;
 }
 
@@ -386,8 +386,8 @@ void Parser::unknownItem(BlockBuilder& b, const Token& t) {
 }
 
 // ---------------------------------------------------------------- going on after an error
-/// Takes tokens up to one that satisfies `stopsAt` outside all braces beyond `level`; directives are
-/// obeyed, so that an #end finds its #if.
+/// Takes tokens up to one that satisfies `stopsAt` outside all braces beyond `level`; directives
+/// are obeyed, so that an #end finds its #if.
 template <class StopsAt>
 void Parser::skip(int level, StopsAt stopsAt, bool stopsAfterBraces) {
   for (;;) {

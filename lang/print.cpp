@@ -17,7 +17,6 @@ constexpr int kLongChain = 10;  ///< calls shown in full
 constexpr std::string_view kPlain = "\x1b[0m", kBold = "\x1b[1m", kRed = "\x1b[1;31m",
                            kYellow = "\x1b[1;33m", kCyan = "\x1b[1;36m", kGreen = "\x1b[1;32m";
 
-
 bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 /// The characters of a line, one string each; controls become '?', tabs the blanks they stand for.
@@ -26,8 +25,8 @@ std::vector<std::pair<std::string, std::uint32_t>> glyphs(const std::string& tex
   std::vector<std::pair<std::string, std::uint32_t>> out;
   for (std::uint32_t i = begin; i < end; ++i) {
     const char c = text[i];
-    if (c == '\t')
-      do out.emplace_back(" ", i);
+    if (c == '\t') do
+        out.emplace_back(" ", i);
       while (out.size() % kTab != 0);
     else if (isContinuation(c) && !out.empty())
       out.back().first += c;
@@ -53,9 +52,9 @@ std::pair<std::string, std::string> marked(const Span& span, const Sources& sour
   const auto all = glyphs(text.text, from, std::min(end, std::max(span.begin, from) + near));
 
   const auto column = [&](std::uint32_t offset) {
-    return std::size_t(std::find_if(all.begin(), all.end(),
-                                    [&](const auto& g) { return g.second >= offset; }) -
-                       all.begin());
+    return std::size_t(
+        std::find_if(all.begin(), all.end(), [&](const auto& g) { return g.second >= offset; }) -
+        all.begin());
   };
   const std::size_t caret = column(span.begin);
   const std::size_t last = std::max(caret + 1, column(std::min(span.end, end)));
@@ -132,8 +131,14 @@ void print(std::ostream& out, const Diagnostic& diagnostic, const Sources& sourc
   Printer printer(out, sources, colour);
   const bool isError = diagnostic.severity == Severity::error;
   const bool isWarning = diagnostic.severity == Severity::warning;
-  printer.message(diagnostic.span, isError ? "error" : isWarning ? "warning" : "note",
-                  isError ? kRed : isWarning ? kYellow : kCyan, diagnostic.message);
+  printer.message(diagnostic.span,
+                  isError     ? "error"
+                  : isWarning ? "warning"
+                              : "note",
+                  isError     ? kRed
+                  : isWarning ? kYellow
+                              : kCyan,
+                  diagnostic.message);
   printer.chain(diagnostic.span.via);
   for (const Note& note : diagnostic.notes) printer.message(note.span, "note", kCyan, note.message);
 }

@@ -24,9 +24,10 @@ class Reporter {
   Diagnostic& error(const Span& span, const std::string& message) {
     if (!isNew(span, message)) return ignored_;
     if (diagnostics_.errors() >= mostErrors_) {
-      diagnostics_.error(span, "too many errors, the rest is not shown: --max-errors raises the "
-                               "limit of " +
-                                   std::to_string(mostErrors_));
+      diagnostics_.error(span,
+                         "too many errors, the rest is not shown: --max-errors raises the "
+                         "limit of " +
+                             std::to_string(mostErrors_));
       throw Stop{};
     }
     return diagnostics_.error(span, message);

@@ -26,9 +26,9 @@ std::string describe(const Datum& datum) {
       return "the string \"" + (s->size() > kLongest ? s->substr(0, kLongest) + "..." : *s) + "\"";
     }
     std::string operator()(const BlockPtr& b) const {
-      return b->kind == "shape" ? "the shape '" + b->plugin + "'"
-                                : "the block '" + b->kind +
-                                      (b->plugin.empty() ? "" : " " + b->plugin) + "'";
+      return b->kind == "shape"
+                 ? "the shape '" + b->plugin + "'"
+                 : "the block '" + b->kind + (b->plugin.empty() ? "" : " " + b->plugin) + "'";
     }
     std::string operator()(const Affine&) const { return "a transform"; }
     std::string operator()(const FunctionPtr&) const { return "a function"; }

@@ -38,8 +38,8 @@ using ArrayPtr = std::shared_ptr<const Array>;
 
 /// std::monostate is what is left of an expression that was complained about: everything takes it
 /// in silence.
-using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, Affine, FunctionPtr, ArrayPtr,
-                           MacroPtr>;
+using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, Affine, FunctionPtr,
+                           ArrayPtr, MacroPtr>;
 
 /// A share of a total that is given back when its owner goes: bounds what lives at one time.
 class Share {

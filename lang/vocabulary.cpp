@@ -44,38 +44,87 @@ const char* insteadOf(const std::string& word) {
   static const char* const glass = "write 'brdf glass { ior 1.5 }' in the shape";
   static const char* const sky = "write 'light environment { radiance rgb 1 }'";
   static const char* const lens = "write 'camera thin_lens { aperture 0.1 focal_point <0, 0, 0> }'";
-  static const char* const light = "write 'light point { location <0, 5, 0> intensity rgb 10 }' "
-                                   "or 'light area { corner, edge, edge radiance rgb 10 }'";
-  static const char* const rough = "write 'brdf rough_conductor { alpha 0.1 }' or 'brdf phong { "
-                                   "specular rgb 0.5 exponent 50 }'";
+  static const char* const light =
+      "write 'light point { location <0, 5, 0> intensity rgb 10 }' "
+      "or 'light area { corner, edge, edge radiance rgb 10 }'";
+  static const char* const rough =
+      "write 'brdf rough_conductor { alpha 0.1 }' or 'brdf phong { "
+      "specular rgb 0.5 exponent 50 }'";
   static const char* const none = "it has no counterpart here; light is computed, not set";
   static const char* const notYet = "Vestige does not have it yet";
   static const std::map<std::string, const char*> words = {
-      {"texture", brdf}, {"finish", brdf}, {"material", brdf}, {"phong_size", rough},
+      {"texture", brdf},
+      {"finish", brdf},
+      {"material", brdf},
+      {"phong_size", rough},
       {"normal", "write 'normal_map pigment image { \"file\" }' in a brdf"},
-      {"interior", glass}, {"interior_texture", glass}, {"media", notYet}, {"density", notYet},
-      {"light_source", light}, {"spotlight", "write 'light spot { ... }'"},
-      {"area_light", light}, {"light_group", notYet}, {"looks_like", glow},
-      {"ambient", glow}, {"emission_map", glow}, {"ambient_light", sky},
-      {"background", sky}, {"sky_sphere", sky}, {"fog", notYet}, {"rainbow", notYet},
+      {"interior", glass},
+      {"interior_texture", glass},
+      {"media", notYet},
+      {"density", notYet},
+      {"light_source", light},
+      {"spotlight", "write 'light spot { ... }'"},
+      {"area_light", light},
+      {"light_group", notYet},
+      {"looks_like", glow},
+      {"ambient", glow},
+      {"emission_map", glow},
+      {"ambient_light", sky},
+      {"background", sky},
+      {"sky_sphere", sky},
+      {"fog", notYet},
+      {"rainbow", notYet},
       {"global_settings", "write 'integrator path { samples 64 depth 8 }' and 'film { ... }'"},
-      {"radiosity", none}, {"photons", none}, {"no_shadow", none}, {"hollow", none},
-      {"no_reflection", none}, {"no_image", none}, {"double_illuminate", none},
-      {"assumed_gamma", none}, {"max_trace_level", "write 'depth' in the integrator"},
-      {"focal_blur", lens}, {"blur_samples", lens}, {"perspective", "write 'camera pinhole'"},
-      {"color_map", notYet}, {"colour_map", notYet}, {"pigment_map", notYet},
-      {"texture_map", notYet}, {"image_map", "write 'pigment image { \"file\" }'"},
+      {"radiosity", none},
+      {"photons", none},
+      {"no_shadow", none},
+      {"hollow", none},
+      {"no_reflection", none},
+      {"no_image", none},
+      {"double_illuminate", none},
+      {"assumed_gamma", none},
+      {"max_trace_level", "write 'depth' in the integrator"},
+      {"focal_blur", lens},
+      {"blur_samples", lens},
+      {"perspective", "write 'camera pinhole'"},
+      {"color_map", notYet},
+      {"colour_map", notYet},
+      {"pigment_map", notYet},
+      {"texture_map", notYet},
+      {"image_map", "write 'pigment image { \"file\" }'"},
       {"bump_map", "write 'normal_map' in a brdf"},
       {"uv_mapping", "an image is looked up by uv unless 'mapping' says otherwise"},
-      {"mesh2", "write 'mesh { \"file\" }'"}, {"smooth_triangle", "write 'mesh { \"file\" }'"},
-      {"blob", notYet}, {"isosurface", notYet}, {"julia_fractal", notYet}, {"lathe", notYet},
-      {"ovus", notYet}, {"parametric", notYet}, {"prism", notYet}, {"sphere_sweep", notYet},
-      {"superellipsoid", notYet}, {"sor", notYet}, {"bicubic_patch", notYet}, {"polygon", notYet},
-      {"poly", notYet}, {"cubic", notYet}, {"quartic", notYet}, {"quadric", notYet},
-      {"polynomial", notYet}, {"difference", notYet}, {"intersection", notYet}, {"merge", notYet},
-      {"clipped_by", notYet}, {"bounded_by", "bounds are found by themselves: leave it out"},
-      {"spline", notYet}, {"#default", notYet}, {"#fopen", notYet}, {"#read", notYet},
-      {"#write", notYet}, {"#fclose", notYet}, {"parallel", "write 'light distant { ... }'"}};
+      {"mesh2", "write 'mesh { \"file\" }'"},
+      {"smooth_triangle", "write 'mesh { \"file\" }'"},
+      {"blob", notYet},
+      {"isosurface", notYet},
+      {"julia_fractal", notYet},
+      {"lathe", notYet},
+      {"ovus", notYet},
+      {"parametric", notYet},
+      {"prism", notYet},
+      {"sphere_sweep", notYet},
+      {"superellipsoid", notYet},
+      {"sor", notYet},
+      {"bicubic_patch", notYet},
+      {"polygon", notYet},
+      {"poly", notYet},
+      {"cubic", notYet},
+      {"quartic", notYet},
+      {"quadric", notYet},
+      {"polynomial", notYet},
+      {"difference", notYet},
+      {"intersection", notYet},
+      {"merge", notYet},
+      {"clipped_by", notYet},
+      {"bounded_by", "bounds are found by themselves: leave it out"},
+      {"spline", notYet},
+      {"#default", notYet},
+      {"#fopen", notYet},
+      {"#read", notYet},
+      {"#write", notYet},
+      {"#fclose", notYet},
+      {"parallel", "write 'light distant { ... }'"}};
   const auto found = words.find(word);
   return found == words.end() ? nullptr : found->second;
 }
@@ -91,10 +140,10 @@ bool isMovable(const std::string& kind) {
 
 bool isExpressionWord(const std::string& word) {
   static const std::set<std::string> words = {
-      "x",    "y",     "z",     "t",    "u",    "v",     "pi",    "tau",   "true",    "false",
-      "yes",  "no",    "on",    "off",  "rgb",  "rgbf",  "rgbt",  "rgbft", "srgb",    "srgbf",
-      "srgbt", "srgbft", "color", "colour", "red", "green", "blue", "filter", "transmit",
-      "defined", "clock", "version", "function", "array"};
+      "x",      "y",        "z",       "t",      "u",       "v",        "pi",   "tau",   "true",
+      "false",  "yes",      "no",      "on",     "off",     "rgb",      "rgbf", "rgbt",  "rgbft",
+      "srgb",   "srgbf",    "srgbt",   "srgbft", "color",   "colour",   "red",  "green", "blue",
+      "filter", "transmit", "defined", "clock",  "version", "function", "array"};
   return words.count(word) > 0 || findBuiltin(word) != nullptr;
 }
 

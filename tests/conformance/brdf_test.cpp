@@ -85,7 +85,7 @@ TEST_CASE("samples are distributed as pdf says", "[brdf][chi2]") {
 }
 
 TEST_CASE("samples are distributed as pdf says, with many samples", "[brdf][chi2][slow]") {
-  checkGoodness(brdfCases(12), 1 << 19, 10);
+  checkGoodness(brdfCases(8), 1 << 18, 10);
 }
 
 TEST_CASE("a sample knows its own pdf", "[brdf]") {

@@ -191,8 +191,8 @@ TEST_CASE("blocks are arguments, array elements and macro results", "[lang]") {
 TEST_CASE("definitions come before the scene", "[lang]") {
   Options options;
   options.definitions = {{"Radius", "2*3"}, {"Name", "\"a.ply\""}};
-  const Result r = read("#ifndef (Radius) #declare Radius = 1; #end sphere { 0, Radius } mesh { Name }",
-                        options);
+  const Result r = read(
+      "#ifndef (Radius) #declare Radius = 1; #end sphere { 0, Radius } mesh { Name }", options);
   INFO(printed(r));
   REQUIRE(r.scene.blocks.size() == 2);
   CHECK(number(r.scene.blocks[0], "radius") == 6);

@@ -252,7 +252,8 @@ bool isSame(const std::string& a, const std::string& b) {
     const double x = std::strtod(p, &pEnd), y = std::strtod(q, &qEnd);
     if (pEnd != p && qEnd != q) {
       const bool bothNan = std::isnan(x) && std::isnan(y);
-      if (!bothNan && x != y && !(std::abs(x - y) <= 3e-7 * std::max(1.0, std::abs(y)))) return false;
+      if (!bothNan && x != y && !(std::abs(x - y) <= 3e-7 * std::max(1.0, std::abs(y))))
+        return false;
       p = pEnd, q = qEnd;
     } else if (*p++ != *q++) {
       return false;

@@ -22,39 +22,61 @@ inline const std::vector<Schema>& schemas() {
     const std::vector<std::string> shapeParts = {"brdf"};
     const auto point = [](const char* name) { return vec3(name, {}).need().place(); };
     std::vector<Schema> s;
-    s.push_back({"camera", "pinhole", "a pinhole camera",
+    s.push_back({"camera",
+                 "pinhole",
+                 "a pinhole camera",
                  {vec3("location", {}), vec3("look_at", {0, 0, 1}),
                   real("angle", 67).range(0, 180).in("degrees").doc("full horizontal")}});
-    s.push_back({"film", "", "the picture",
+    s.push_back({"film",
+                 "",
+                 "the picture",
                  {vec2("resolution", {640, 480}).range(1, 65536),
                   choice("filter", {"box", "gaussian", "blackman_harris"})}});
-    s.push_back({"integrator", "path", "path tracing",
+    s.push_back({"integrator",
+                 "path",
+                 "path tracing",
                  {integer("samples", 16).range(1, 1e9), integer("depth", 8).range(1, 1000),
                   block("footprint", "footprint")}});
     s.push_back({"footprint", "local", "", {real("limit", 0).positive(), real("scale", 1)}});
     s.push_back({"footprint", "pixel", ""});
-    s.push_back({"light", "point", "",
+    s.push_back({"light",
+                 "point",
+                 "",
                  {vec3("location", {}).need().doc("where it is"), rgb("intensity", 1)}});
-    s.push_back({"light", "area", "",
+    s.push_back({"light",
+                 "area",
+                 "",
                  {point("corner"), point("edge1"), point("edge2"), rgb("radiance", 1),
                   boolean("two_sided", false)}});
-    s.push_back({"light", "environment", "",
-                 {rgb("radiance", 1), block("image", "pigment")}});
+    s.push_back({"light", "environment", "", {rgb("radiance", 1), block("image", "pigment")}});
     s.push_back({"brdf", "lambert", "", {}, {textured(rgb("diffuse", 0.5).range(0, 1))}});
-    s.push_back({"brdf", "phong", "", {real("ior", 1.5).range(1, 10)},
-                 {textured(rgb("specular", 0).range(0, 1)),
-                  textured(real("exponent", 50).range(0, 1e6)),
-                  textured(rgb("transmission", 0).range(0, 1))}});
-    s.push_back({"pigment", "checker", "", {}, {rgb("first", 1).place(), rgb("second", 0).place()}});
-    s.push_back({"pigment", "image", "",
+    s.push_back(
+        {"brdf",
+         "phong",
+         "",
+         {real("ior", 1.5).range(1, 10)},
+         {textured(rgb("specular", 0).range(0, 1)), textured(real("exponent", 50).range(0, 1e6)),
+          textured(rgb("transmission", 0).range(0, 1))}});
+    s.push_back(
+        {"pigment", "checker", "", {}, {rgb("first", 1).place(), rgb("second", 0).place()}});
+    s.push_back({"pigment",
+                 "image",
+                 "",
                  {file("file").need().place(), choice("wrap", {"repeat", "clamp", "mirror"})}});
-    s.push_back({"shape", "sphere", "",
-                 {point("centre"),
-                  real("radius", 1).positive().need().place().in("scene units").doc(
-                      "from the centre to the surface")},
-                 {textured(rgb("emission", 0))}, shapeParts});
+    s.push_back({"shape",
+                 "sphere",
+                 "",
+                 {point("centre"), real("radius", 1)
+                                       .positive()
+                                       .need()
+                                       .place()
+                                       .in("scene units")
+                                       .doc("from the centre to the surface")},
+                 {textured(rgb("emission", 0))},
+                 shapeParts});
     s.push_back({"shape", "box", "", {point("low"), point("high")}, {}, shapeParts});
-    s.push_back({"shape", "plane", "", {point("normal"), real("distance", 0).place()}, {}, shapeParts});
+    s.push_back(
+        {"shape", "plane", "", {point("normal"), real("distance", 0).place()}, {}, shapeParts});
     s.push_back({"shape", "mesh", "", {file("file").need().place()}, {}, shapeParts});
     s.push_back({"union", "", "shapes together", {}, {}, {"shape", "union", "brdf"}});
     return s;

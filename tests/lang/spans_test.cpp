@@ -13,8 +13,8 @@ std::string excerptOf(const Result& r, const Span& span) { return r.sources->exc
 }  // namespace
 
 TEST_CASE("values, names and heads have spans", "[lang]") {
-  const Result r = read(
-      "#declare N = 2;\nsphere { <0, 1, 0>, N * (1 + 2)\n  brdf phong { exponent (40) } }");
+  const Result r =
+      read("#declare N = 2;\nsphere { <0, 1, 0>, N * (1 + 2)\n  brdf phong { exponent (40) } }");
   REQUIRE(r.scene.blocks.size() == 1);
   const Block& sphere = r.scene.blocks[0];
   CHECK(excerptOf(r, sphere.span) == "sphere");
@@ -32,8 +32,8 @@ TEST_CASE("values, names and heads have spans", "[lang]") {
 }
 
 TEST_CASE("values from macros know the calls", "[lang]") {
-  const Result r = read(
-      "#macro Ball(R) sphere { 0, R } #end\n#macro Two(R) Ball(R) Ball(R + 1) #end\nTwo(5)");
+  const Result r =
+      read("#macro Ball(R) sphere { 0, R } #end\n#macro Two(R) Ball(R) Ball(R + 1) #end\nTwo(5)");
   REQUIRE(r.scene.blocks.size() == 2);
   const Span span = r.scene.blocks[1].find("radius")->span;
   CHECK(excerptOf(r, span) == "R");

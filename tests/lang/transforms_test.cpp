@@ -48,9 +48,7 @@ TEST_CASE("transforms are POV-Ray's", "[lang]") {
       {"transform { rotate <10,20,30> translate <4,5,6> inverse }",
        {1, 2, 3},
        {-2.824871545, -1.814311260, -3.965901588}},
-      {"translate x scale 2 transform { rotate 90*z inverse } translate y",
-       {1, 2, 3},
-       {4, -3, 6}},
+      {"translate x scale 2 transform { rotate 90*z inverse } translate y", {1, 2, 3}, {4, -3, 6}},
       {"scale <2, 0, 2>", {1, 1, 1}, {2, 1, 2}},
   };
   for (const Row& row : rows) {
@@ -87,7 +85,8 @@ TEST_CASE("a transform moves what stands before it", "[lang]") {
 
 TEST_CASE("a union moves its parts, whose own transforms stay theirs", "[lang]") {
   const Block u =
-      scene("union { sphere { 0, 1 scale 2 } box { 0, 1 } translate x sphere { 0, 3 } rotate 90*z }")
+      scene(
+          "union { sphere { 0, 1 scale 2 } box { 0, 1 } translate x sphere { 0, 3 } rotate 90*z }")
           .blocks[0];
   REQUIRE(u.children.size() == 3);
   check(apply(u.children[0].world, {1, 0, 0}), {0, 3, 0});
