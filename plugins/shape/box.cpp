@@ -13,11 +13,12 @@ class Box final : public Shape {
   enum Row { kCorner1, kCorner2 };
 
   static Schema schema() {
-    return {.kind = "shape",
-            .name = "box",
-            .summary = "between two opposite corners, along the axes",
-            .params = {vec3("corner1", {}).need().place().in("scene units"),
-                       vec3("corner2", {}).need().place().in("scene units")}};
+    return {
+        .kind = "shape",
+        .name = "box",
+        .summary = "between two opposite corners, along the axes",
+        .params = {vec3("corner1", {}).need().place().in("scene units").doc("one corner"),
+                   vec3("corner2", {}).need().place().in("scene units").doc("the corner across")}};
   }
   explicit Box(const Values& v)
       : b_{minimum(v.vec3(kCorner1), v.vec3(kCorner2)),

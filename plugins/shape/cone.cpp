@@ -13,14 +13,25 @@ class Cone final : public Frustum {
 
   static Schema schema() {
     const double inf = std::numeric_limits<double>::infinity();
-    return {.kind = "shape",
-            .name = "cone",
-            .summary = "round, pointed or cut off, between the centres of its two ends",
-            .params = {vec3("base", {}).need().place().in("scene units"),
-                       real("base_radius", 1).need().place().range(0, inf).in("scene units"),
-                       vec3("cap", {}).need().place().in("scene units"),
-                       real("cap_radius", 0).need().place().range(0, inf).in("scene units"),
-                       boolean("open", false).doc("without lids")}};
+    return {
+        .kind = "shape",
+        .name = "cone",
+        .summary = "round, pointed or cut off, between the centres of its two ends",
+        .params = {vec3("base", {}).need().place().in("scene units").doc("middle of one lid"),
+                   real("base_radius", 1)
+                       .need()
+                       .place()
+                       .range(0, inf)
+                       .in("scene units")
+                       .doc("of that lid; 0: a point"),
+                   vec3("cap", {}).need().place().in("scene units").doc("middle of the other lid"),
+                   real("cap_radius", 0)
+                       .need()
+                       .place()
+                       .range(0, inf)
+                       .in("scene units")
+                       .doc("of that lid; 0: a point"),
+                   boolean("open", false).doc("without lids")}};
   }
   explicit Cone(const Values& v)
       : Frustum(v.vec3(kBase), v.real(kBaseRadius), checked(v), v.real(kCapRadius), v.flag(kOpen)) {

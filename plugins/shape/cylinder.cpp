@@ -12,13 +12,14 @@ class Cylinder final : public Frustum {
   enum Row { kBase, kCap, kRadius, kOpen };
 
   static Schema schema() {
-    return {.kind = "shape",
-            .name = "cylinder",
-            .summary = "round, between the centres of its two lids",
-            .params = {vec3("base", {}).need().place().in("scene units"),
-                       vec3("cap", {}).need().place().in("scene units"),
-                       real("radius", 1).need().place().positive().in("scene units"),
-                       boolean("open", false).doc("without lids")}};
+    return {
+        .kind = "shape",
+        .name = "cylinder",
+        .summary = "round, between the centres of its two lids",
+        .params = {vec3("base", {}).need().place().in("scene units").doc("middle of one lid"),
+                   vec3("cap", {}).need().place().in("scene units").doc("middle of the other lid"),
+                   real("radius", 1).need().place().positive().in("scene units").doc("of the side"),
+                   boolean("open", false).doc("without lids")}};
   }
   explicit Cylinder(const Values& v)
       : Frustum(v.vec3(kBase), v.real(kRadius), checked(v), v.real(kRadius), v.flag(kOpen)) {}

@@ -12,16 +12,17 @@ class Disc final : public Shape {
   enum Row { kCentre, kNormal, kRadius, kHole };
 
   static Schema schema() {
-    return {.kind = "shape",
-            .name = "disc",
-            .summary = "flat and round, with a hole on request",
-            .params = {vec3("centre", {}).need().place().in("scene units"),
-                       vec3("normal", {0, 1, 0}).need().place().doc("of any length"),
-                       real("radius", 1).need().place().positive().in("scene units"),
-                       real("hole_radius", 0)
-                           .place()
-                           .range(0, std::numeric_limits<double>::infinity())
-                           .in("scene units")}};
+    return {
+        .kind = "shape",
+        .name = "disc",
+        .summary = "flat and round, with a hole on request",
+        .params = {vec3("centre", {}).need().place().in("scene units").doc("the middle"),
+                   vec3("normal", {0, 1, 0}).need().place().doc("of any length"),
+                   real("radius", 1).need().place().positive().in("scene units").doc("of the rim"),
+                   real("hole_radius", 0)
+                       .place()
+                       .range(0, std::numeric_limits<double>::infinity())
+                       .in("scene units")}};
   }
   explicit Disc(const Values& v) {
     const exact::V n(v.vec3(kNormal));

@@ -24,7 +24,7 @@ class HeightField final : public MeshShape {
     return {.kind = "shape",
             .name = "height_field",
             .summary = "landscape over the unit square from the brightness of an image",
-            .params = {file("file").need().place(),
+            .params = {file("file").need().place().doc("a picture: its brightness is the height"),
                        boolean("smooth", false).doc("blends the normals of neighbours"),
                        real("water_level", 0).range(0, 1).doc("what lies below is left out")}};
   }

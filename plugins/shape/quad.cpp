@@ -14,12 +14,13 @@ class Quad final : public Shape {
   enum Row { kCorner, kEdge1, kEdge2 };
 
   static Schema schema() {
-    return {.kind = "shape",
-            .name = "quad",
-            .summary = "parallelogram; its normal is vcross(edge1, edge2)",
-            .params = {vec3("corner", {}).need().place().in("scene units"),
-                       vec3("edge1", {}).need().place().in("scene units").doc("along u"),
-                       vec3("edge2", {}).need().place().in("scene units").doc("along v")}};
+    return {
+        .kind = "shape",
+        .name = "quad",
+        .summary = "parallelogram; its normal is vcross(edge1, edge2)",
+        .params = {vec3("corner", {}).need().place().in("scene units").doc("where u and v are 0"),
+                   vec3("edge1", {}).need().place().in("scene units").doc("along u"),
+                   vec3("edge2", {}).need().place().in("scene units").doc("along v")}};
   }
   explicit Quad(const Values& v)
       : corner_(v.vec3(kCorner)), edge1_(v.vec3(kEdge1)), edge2_(v.vec3(kEdge2)) {

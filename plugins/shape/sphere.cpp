@@ -20,8 +20,13 @@ class Sphere final : public Shape {
     return {.kind = "shape",
             .name = "sphere",
             .summary = "all points at one distance from a centre",
-            .params = {vec3("centre", {}).need().place().in("scene units"),
-                       real("radius", 1).need().place().positive().in("scene units")}};
+            .params = {vec3("centre", {}).need().place().in("scene units").doc("the middle"),
+                       real("radius", 1)
+                           .need()
+                           .place()
+                           .positive()
+                           .in("scene units")
+                           .doc("from the middle to the surface")}};
   }
   explicit Sphere(const Values& v) : c_(v.vec3(kCentre)), r_(v.real(kRadius)) {}
 

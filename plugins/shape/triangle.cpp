@@ -18,13 +18,16 @@ class Triangle final : public MeshShape {
     return {.kind = "shape",
             .name = "triangle",
             .summary = "its normal is vcross(b - a, c - a)",
-            .params = {vec3("a", {}).need().place().in("scene units"),
-                       vec3("b", {}).need().place().in("scene units"),
-                       vec3("c", {}).need().place().in("scene units"),
-                       vec3("normal_a", {}).unset().doc("for smooth shading, all three or none"),
-                       vec3("normal_b", {}).unset(), vec3("normal_c", {}).unset(),
-                       vec2("uv_a", {}).unset().doc("all three or none"), vec2("uv_b", {}).unset(),
-                       vec2("uv_c", {}).unset()}};
+            .params = {
+                vec3("a", {}).need().place().in("scene units").doc("first corner"),
+                vec3("b", {}).need().place().in("scene units").doc("second corner, where u is 1"),
+                vec3("c", {}).need().place().in("scene units").doc("third corner, where v is 1"),
+                vec3("normal_a", {}).unset().doc("for smooth shading, all three or none"),
+                vec3("normal_b", {}).unset().doc("at the second corner"),
+                vec3("normal_c", {}).unset().doc("at the third corner"),
+                vec2("uv_a", {}).unset().doc("all three or none"),
+                vec2("uv_b", {}).unset().doc("at the second corner"),
+                vec2("uv_c", {}).unset().doc("at the third corner")}};
   }
 
   explicit Triangle(const Values& v) {
