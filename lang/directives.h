@@ -52,6 +52,8 @@ class Directives {
   void macro(const Token& directive);
   void macroParameters(Macro& macro);
   Cell argument(const std::string& macro);
+  bool takes(const Macro& macro, std::size_t arguments, const Span& call);
+  void readBody(const Macro& macro, const std::vector<Cell>& arguments, const Span& call);
   void checkMacroDepth(const Token& name);
   void include(const Token& directive);
   void missingInclude(const std::string& name, const Span& span,

@@ -22,7 +22,8 @@ class Disc final : public Shape {
                    real("hole_radius", 0)
                        .place()
                        .range(0, std::numeric_limits<double>::infinity())
-                       .in("scene units")}};
+                       .in("scene units")
+                       .doc("of the hole in the middle; 0: none")}};
   }
   explicit Disc(const Values& v) {
     const exact::V n(v.vec3(kNormal));

@@ -93,6 +93,21 @@ TEST_CASE("includes are looked for beside the file that asks", "[lang]") {
   CHECK(f.said() == "70");
 }
 
+TEST_CASE("heads that run past the end of their file do no harm", "[lang]") {
+  const Folder f;
+  const std::string rest = " A, 1, 2) x (1) 1) = 1; sphere { 0, 1 } #end #else #end ";
+  for (const char* head : {"#macro M(", "#for (", "#if (", "#while (1", "#switch (", "#ifdef (",
+                           "#declare", "#macro", "#for (I, 1,", "sphere {", "#declare X =", "/*",
+                           "#switch (1) #case (", "#if (0) #elseif (", "function("}) {
+    INFO(head);
+    f.write("main.scene", "#include \"sub/a.inc\"" + rest + rest);
+    f.write("sub/a.inc", "#declare A = 1; " + std::string(head));
+    CHECK_THAT(f.said(), containsText("error"));
+    f.write("main.scene", "#macro Q() " + std::string(head) + " #end Q()" + rest + rest);
+    CHECK_THAT(f.said(), containsText("error"));
+  }
+}
+
 TEST_CASE("include paths come last, in their order", "[lang]") {
   const Folder f, first, second;
   f.write("main.scene", "#include \"x.inc\"#include \"y.inc\"");

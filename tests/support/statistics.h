@@ -118,10 +118,11 @@ class SpherePartition {
   static constexpr double kPi_ = 3.14159265358979323846;
   static constexpr std::size_t kLeaf = 4;  ///< samples in a box of integration
 
-  /// Height by x^2 + y^2: about the normal a narrow lobe's 1 - z has no digits left in a float.
+  /// Height by z, but near the poles by x^2 + y^2: about the normal a narrow lobe's 1 - z has no
+  /// digits left in a float.
   Point pointOf(Vec3 d) const {
-    const double x = d.x, y = d.y, s = x * x + y * y;
-    const double cap = s / (1 + std::sqrt(std::max(0.0, 1 - s)));  // 1 - |z|
+    const double x = d.x, y = d.y, z = std::abs(double(d.z)), s = x * x + y * y;
+    const double cap = z < 0.5 ? 1 - z : s / (1 + std::sqrt(std::max(0.0, 1 - s)));  // 1 - |z|
     return {std::remainder(std::atan2(y, x) - middle_, 2 * kPi_), d.z < 0 ? cap : 2 - cap};
   }
   Vec3 directionOf(Point p) const {
