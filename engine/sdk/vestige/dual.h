@@ -19,7 +19,7 @@ struct Dual {
 
   Dual() = default;
   Dual(Real value) : v(value) {}  // NOLINT: a constant is a number that does not move
-  Dual(Real value, Lanes derivative) : v(value), d(derivative) {}
+  Dual(Real value, const Lanes& derivative) : v(value), d(derivative) {}
   /// The number that derivative `lane` is taken by.
   static Dual variable(Real value, int lane) noexcept {
     Dual x(value);
