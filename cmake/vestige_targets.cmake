@@ -6,6 +6,8 @@ add_library(vestige_flags INTERFACE)
 target_compile_options(vestige_flags INTERFACE -Wall -Wextra -ffp-contract=off)
 if(VESTIGE_DOUBLE)
   target_compile_definitions(vestige_flags INTERFACE VESTIGE_DOUBLE)
+  # A note of gcc about vectors of four doubles; none crosses a library boundary.
+  target_compile_options(vestige_flags INTERFACE -Wno-psabi)
 endif()
 if(VESTIGE_SANITIZE)
   target_compile_options(vestige_flags INTERFACE -fsanitize=${VESTIGE_SANITIZE} -fno-omit-frame-pointer)
