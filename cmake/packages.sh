@@ -92,7 +92,7 @@ build_release() {
     say "building in build/release; this first time takes some minutes ..."
   fi
   if ! ninja -C "$build" -j "$(nproc)" "$@" 2>&1 | tee "$log" | progress; then
-    grep -v '^\[[0-9]*/[0-9]*\]' "$log" >&2 || true
+    grep -av '^\[[0-9]*/[0-9]*\]' "$log" >&2 || true
     say "the build failed, see above (all of it: build/release/build.log)."
     exit 1
   fi
