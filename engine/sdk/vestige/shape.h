@@ -104,7 +104,8 @@ class Shape {
   virtual Real towardPdf(Vec3 /*from*/) const noexcept { return 0; }
   virtual ConeJacobian towardDerivatives(Vec3 /*from*/, Vec2 /*u*/) const noexcept { return {}; }
 
-  /// Faces that uv in [0,1]^2 covers once each, as patches for integrators; 0: the shape offers none.
+  /// Faces that uv in [0,1]^2 covers once each, as patches for integrators; 0: the shape offers
+  /// none.
   virtual int faces() const noexcept { return 0; }
   /// The point of a face at uv: what surface() says of the point that has this uv.
   virtual SurfacePoint at(Vec2 /*uv*/, int /*face*/) const noexcept { return {}; }
