@@ -37,6 +37,7 @@ using Action = std::function<int()>;
 
 /// Each adds its command to the program; when the line names it, `chosen` is set.
 void addRender(CLI::App& program, Action& chosen);
+void addInspect(CLI::App& program, Action& chosen);
 void addCheck(CLI::App& program, Action& chosen);
 void addDescribe(CLI::App& program, Action& chosen);
 void addCompare(CLI::App& program, Action& chosen);

@@ -18,6 +18,7 @@ loops and macros. Every camera, light, shape and material is a plugin.
 
 Commands ('vestige COMMAND --help' for their options)
   render SCENE      render to EXR, HDR, TIFF, PNG or JPEG; Ctrl-C keeps what is done
+  inspect SCENE X Y one path, vertex by vertex: what it hit and how large its footprint is there
   check SCENE       errors and warnings only; --json for editors
   describe [KIND [NAME]]
                     plugins and their parameters, with types, ranges and defaults

@@ -19,7 +19,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const Words kCommands = {"render", "check", "describe", "compare", "help"};
+const Words kCommands = {"render", "inspect", "check", "describe", "compare", "help"};
 
 bool isCommand(const std::string& word) {
   return std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end();
@@ -43,7 +43,7 @@ Words withCommand(Words words) {
     const std::string near = nearestWord(words[0], kCommands);
     throw Failure(kCommandLineWrong,
                   fmt::format("there is no command and no scene file '{}'; {}", words[0],
-                              near.empty() ? "the commands are render, check, describe, compare"
+                              near.empty() ? "the commands are render, inspect, check, describe, compare"
                                            : fmt::format("did you mean '{}'?", near)));
   }
   words.insert(words.begin(), "render");
@@ -95,6 +95,7 @@ int run(Words words) {
   program.add_flag("--version", version);
   Action chosen;
   addRender(program, chosen);
+  addInspect(program, chosen);
   addCheck(program, chosen);
   addDescribe(program, chosen);
   addCompare(program, chosen);

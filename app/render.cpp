@@ -17,21 +17,9 @@
 namespace vestige::app {
 namespace {
 
-void checkIntegrator(const std::string& wanted, const Registry& registry) {
-  if (wanted.empty() || registry.find("integrator", wanted)) return;
-  std::vector<std::string> known;
-  for (const Plugin& p : registry.plugins())
-    if (p.kind == "integrator") known.push_back(p.name);
-  const std::string near = nearestWord(wanted, known);
-  throw Failure(kCommandLineWrong,
-                fmt::format("there is no integrator '{}'; {}", wanted,
-                            near.empty() ? fmt::format("there are {}", fmt::join(known, ", "))
-                                         : fmt::format("did you mean '{}'?", near)));
-}
-
 /// What can be known to fail before any work is done.
 void checkRequest(const RenderRequest& r, const Registry& registry) {
-  checkIntegrator(r.integrator, registry);
+  checkBuildOptions(r.build, registry);
   checkOutputs(r.output, !r.aovs.empty());
   if (!r.statsFile.empty() && r.statsFile != "-") checkWritable(r.statsFile);
 }
@@ -99,7 +87,7 @@ int runRender(const RenderRequest& r) {
   const double importSeconds = secondsNow() - start;
   checkRequest(r, registry);
 
-  const LoadedScene loaded = loadScene(r.input, registry, Stage::built, r.integrator);
+  const LoadedScene loaded = loadScene(r.input, registry, Stage::built, r.build);
   printDiagnostics(loaded.text);
   if (!loaded.scene) return kSceneWrong;
   if (!isAccepted(loaded.text, r.input.werror)) {

@@ -12,8 +12,9 @@ namespace vestige::app {
 namespace {
 
 constexpr int kMaxSide = 65536;  // pixels
-constexpr Aov kAovs[] = {Aov::normal,   Aov::albedo, Aov::depth,
-                         Aov::position, Aov::uv,     Aov::samples};  // those that integrators fill
+constexpr Aov kAovs[] = {Aov::normal,   Aov::albedo,    Aov::depth,
+                         Aov::position, Aov::uv,        Aov::samples,
+                         Aov::footprint, Aov::footprintTexels, Aov::gradient};
 
 std::vector<Aov> parseAovs(const std::string& text) {
   std::vector<Aov> wanted;
@@ -61,10 +62,7 @@ void addQuality(CLI::App& command, RenderRequest& r) {
       command, "--threads", 0, 4096, [&](auto n) { r.render.threads = int(n); },
       "threads; the picture is the same for any number (0: all)")
       ->group(group);
-  command.add_option("--integrator", r.integrator, "in place of the scene's")
-      ->take_last()
-      ->type_name("NAME")
-      ->group(group);
+  addBuildOptions(command, r.build, group);
 }
 
 void addPicture(CLI::App& command, RenderRequest& r) {
@@ -95,7 +93,8 @@ void addPicture(CLI::App& command, RenderRequest& r) {
   const auto aov = [&](const std::string& text) { r.aovs = parseAovs(text); };
   command
       .add_option_function<std::string>(
-          "--aov", aov, "further channels: normal,albedo,depth,position,uv,samples or all")
+          "--aov", aov, "further channels: normal,albedo,depth,position,uv,samples,footprint,"
+          "footprint.texels,gradient or all")
       ->take_last()
       ->type_name("LIST")
       ->group(group);

@@ -14,7 +14,7 @@ struct RenderRequest {
   SceneInput input;
   OutputOptions output;
   RenderOptions render;
-  std::string integrator;
+  BuildOptions build;
   int width = 0, height = 0;
   bool cropGiven = false;
   double crop[4] = {0, 0, 1, 1};

@@ -122,7 +122,7 @@ Registry loadRegistry(const std::vector<std::string>& extraPaths) {
 }
 
 LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage stage,
-                      const std::string& integrator) {
+                      const BuildOptions& build) {
   lang::Options options;
   options.includePaths = includeFolders(input.includePaths);
   for (const std::string& text : input.definitions) options.definitions.push_back(definition(text));
@@ -136,9 +136,44 @@ LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage s
   const double read = secondsNow();
   loaded.loadSeconds = read - start;
   if (stage == Stage::built && !loaded.text.diagnostics.hasErrors())
-    loaded.scene = buildScene(loaded.text.scene, registry, {integrator}, loaded.text.diagnostics);
+    loaded.scene = buildScene(loaded.text.scene, registry, build, loaded.text.diagnostics);
   loaded.buildSeconds = secondsNow() - read;
   return loaded;
+}
+
+void addBuildOptions(CLI::App& command, BuildOptions& build, const std::string& group) {
+  command.add_option("--integrator", build.integrator, "in place of the scene's")
+      ->take_last()
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--footprint", build.footprint,
+                  "in place of the scene's: none, pixel, local, global, safe, gradient or paper")
+      ->take_last()
+      ->type_name("BOUND")
+      ->group(group);
+}
+
+namespace {
+
+void checkWord(const std::string& kind, const std::string& wanted, const Registry& registry) {
+  if (wanted.empty()) return;
+  std::vector<std::string> known;
+  for (const Schema& s : registry.schemas())
+    if (s.kind == kind) known.push_back(s.name);
+  if (std::find(known.begin(), known.end(), wanted) != known.end()) return;
+  const std::string near = nearestWord(wanted, known);
+  throw Failure(kCommandLineWrong,
+                fmt::format("there is no {} '{}'; {}", kind, wanted,
+                            near.empty() ? fmt::format("there are {}", fmt::join(known, ", "))
+                                         : fmt::format("did you mean '{}'?", near)));
+}
+
+}  // namespace
+
+void checkBuildOptions(const BuildOptions& build, const Registry& registry) {
+  checkWord("integrator", build.integrator, registry);
+  checkWord("footprint", build.footprint, registry);
 }
 
 void printDiagnostics(const lang::Result& text) {

@@ -42,7 +42,11 @@ struct LoadedScene {
 };
 enum class Stage { text, built };
 LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage stage,
-                      const std::string& integrator = "");
+                      const BuildOptions& build = {});
+/// --integrator and --footprint, in place of the scene's own.
+void addBuildOptions(CLI::App& command, BuildOptions& build, const std::string& group);
+/// Failure if one of them names nothing known.
+void checkBuildOptions(const BuildOptions& build, const Registry& registry);
 
 /// Diagnostics to stderr, and "2 errors, 1 warning" after them if there were any.
 void printDiagnostics(const lang::Result& text);

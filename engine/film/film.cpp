@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/film/film.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -74,6 +75,13 @@ int values(Aov aov, const Aovs& from, Real out[3]) noexcept {
 }  // namespace
 
 const char* name(Aov aov) noexcept { return layer(aov).name; }
+
+bool Film::wantsFootprint() const noexcept {
+  const auto isAbout = [](Aov a) {
+    return a == Aov::footprint || a == Aov::footprintTexels || a == Aov::gradient;
+  };
+  return std::any_of(aovs_.begin(), aovs_.end(), isAbout);
+}
 
 Film::Film(int width, int height, Crop crop, std::vector<Aov> aovs)
     : width_(width), height_(height), crop_(crop), aovs_(std::move(aovs)), channels_(3) {

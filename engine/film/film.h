@@ -42,6 +42,8 @@ class Film {
   int height() const noexcept { return height_; }
   Crop crop() const noexcept { return crop_; }
   const std::vector<Aov>& aovs() const noexcept { return aovs_; }
+  /// Whether one of them is about footprints, which paths otherwise carry for textures only.
+  bool wantsFootprint() const noexcept;
 
   /// Adds one sample of weight 1. What is not finite is left out as black and counted, what is too
   /// large is clamped and counted.

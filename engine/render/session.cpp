@@ -45,37 +45,53 @@ struct Job {
   PixelFilterSampler filter;
   std::uint32_t seed;
   std::uint64_t declaredSamples;
+  bool wantsFootprint;
   int tilesX, tilesY;
 };
 
-/// One sample of one pixel. [any thread, one a pixel]
-void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& counters) noexcept {
-  const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, job.seed);
+/// Where a sample's ray starts, and how that moves with its numbers.
+struct CameraRay {
+  CameraSample ray;
+  RayJacobian jacobian;
+};
+std::optional<CameraRay> cameraRay(const Camera& camera, const PixelFilterSampler& filter,
+                                   const Sampler& sampler, int x, int y, int width,
+                                   int height) noexcept {
   const Vec2 u = sampler.pair(dimension::kFilm);
-  const FilterOffset dx = job.filter.sample(u.x), dy = job.filter.sample(u.y);
-  const Real w = Real(job.film.width()), h = Real(job.film.height());
+  const FilterOffset dx = filter.sample(u.x), dy = filter.sample(u.y);
+  const Real w = Real(width), h = Real(height);
   const CameraNumbers numbers{
       {(Real(x) + Real(0.5) + dx.offset) / w, (Real(y) + Real(0.5) + dy.offset) / h},
       sampler.pair(dimension::kLens),
       w / h};
-  Aovs aovs;
-  ++counters.paths;
-  const std::optional<CameraSample> ray = job.camera.sample(numbers);
-  if (!ray) return job.film.add(x, y, {}, aovs, counters);
-  RayJacobian jacobian = job.camera.sampleDerivatives(numbers);
-  for (auto* d : {&jacobian.dOrigin, &jacobian.dDirection}) {
+  const std::optional<CameraSample> ray = camera.sample(numbers);
+  if (!ray) return std::nullopt;
+  CameraRay result{*ray, camera.sampleDerivatives(numbers)};
+  for (auto* d : {&result.jacobian.dOrigin, &result.jacobian.dDirection}) {
     (*d)[0] *= dx.slope / w;
     (*d)[1] *= dy.slope / h;
   }
+  return result;
+}
+
+/// One sample of one pixel. [any thread, one a pixel]
+void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& counters) noexcept {
+  const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, job.seed);
+  Aovs aovs;
+  ++counters.paths;
+  const auto start =
+      cameraRay(job.camera, job.filter, sampler, x, y, job.film.width(), job.film.height());
+  if (!start) return job.film.add(x, y, {}, aovs, counters);
   PathContext context{.scene = job.scene,
                       .sampler = sampler,
-                      .ray = {ray->origin, ray->direction, 0, kInfinity},
-                      .jacobian = jacobian,
+                      .ray = {start->ray.origin, start->ray.direction, 0, kInfinity},
+                      .jacobian = start->jacobian,
                       .cameraVariables = job.camera.variables(),
                       .declaredSamples = job.declaredSamples,
                       .counters = counters,
-                      .aovs = &aovs};
-  job.film.add(x, y, ray->weight * job.integrator.estimate(context), aovs, counters);
+                      .aovs = &aovs,
+                      .wantsFootprint = job.wantsFootprint};
+  job.film.add(x, y, start->ray.weight * job.integrator.estimate(context), aovs, counters);
 }
 
 void renderTile(const Job& job, int tile, std::uint32_t first, int count, Counters& counters) {
@@ -204,6 +220,7 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
                 PixelFilterSampler(scene.film().filter),
                 options.seed,
                 std::uint64_t(wanted),
+                film.wantsFootprint(),
                 (crop.x1 - crop.x0 + kTile - 1) / kTile,
                 (crop.y1 - crop.y0 + kTile - 1) / kTile};
   // Passes of 1, 1, 2, 4, ... samples: a picture soon, then little overhead.
@@ -224,6 +241,27 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
   result.samples = int(film.minSamples());
   result.seconds = now() - start;
   return result;
+}
+
+Rgb inspectSample(Scene& scene, const Film& film, int x, int y, std::uint32_t index,
+                  const RenderOptions& options, PathRecord& record) {
+  Counters counters;
+  const auto goOn = [](double) { return true; };
+  scene.integrator().prepare({scene.view(), options.seed, 1, goOn});
+  const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, options.seed);
+  const auto start = cameraRay(scene.camera(), PixelFilterSampler(scene.film().filter), sampler, x,
+                               y, film.width(), film.height());
+  if (!start) return {};
+  PathContext context{
+      .scene = scene.view(),
+      .sampler = sampler,
+      .ray = {start->ray.origin, start->ray.direction, 0, kInfinity},
+      .jacobian = start->jacobian,
+      .cameraVariables = scene.camera().variables(),
+      .declaredSamples = std::uint64_t(wantedSamples(scene.integrator(), options)),
+      .counters = counters,
+      .record = &record};
+  return start->ray.weight * scene.integrator().estimate(context);
 }
 
 }  // namespace vestige

@@ -46,4 +46,9 @@ Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
 /// Adds samples to the film until done, out of time or cancelled. Whatever was finished stays.
 RenderResult render(Scene& scene, Film& film, const RenderOptions& options);
 
+/// Traces one sample of one pixel of a film of that size, as render() would, and tells its path to
+/// `record`. What it adds to the pixel.
+Rgb inspectSample(Scene& scene, const Film& film, int x, int y, std::uint32_t index,
+                  const RenderOptions& options, PathRecord& record);
+
 }  // namespace vestige

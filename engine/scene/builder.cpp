@@ -150,6 +150,7 @@ void SceneBuilder::place(Placement p, const Block* brdf, const Value* emission, 
                          const Block& shapeBlock) {
   p.object = addObject(brdf, shapeBlock.world);
   if (p.object < 0) return;
+  impl_.objects.push_back({shapeBlock.plugin, brdf ? brdf->plugin : "lambert", shapeBlock.span});
   p.translucent = impl_.materials[std::size_t(impl_.objectMaterial[p.object])].isTranslucent;
   if (emission && emission->kind != Value::Kind::none)
     addEmission(p, *emission, bothSides, shapeBlock);
@@ -225,8 +226,10 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
     if (!p) continue;
     const Rgba mean = p->pigment->mean();
     m.constants[i] = {{mean.colour.r, mean.colour.g, mean.colour.b, mean.alpha}};
-    m.textured.push_back(
-        {i, rows[i].type == ValueType::real, Real(rows[i].low), Real(rows[i].high), *p});
+    const bool isReal = rows[i].type == ValueType::real;
+    // What enters the light linearly may be averaged; a normal or a roughness may not [MATH T8].
+    const bool isFiltered = i == m.opacity || (!isReal && i != m.normalMap);
+    m.textured.push_back({i, isReal, isFiltered, Real(rows[i].low), Real(rows[i].high), *p});
     if (i == m.normalMap) m.hasNormalMap = true;
     if (i == m.opacity) m.isTranslucent = true;
   }
@@ -245,6 +248,7 @@ void SceneBuilder::addLight(const Block& block) {
   if (!light->geometry()) return;
   impl_.materials.emplace_back();  // reflects nothing
   impl_.objectMaterial.push_back(int(impl_.materials.size()) - 1);
+  impl_.objects.push_back({"light " + block.plugin, "", block.span});
   Placement p;
   p.mesh = light->geometry(), p.object = int(impl_.objectMaterial.size()) - 1, p.light = index;
   impl_.world.add(p);
@@ -268,6 +272,14 @@ void SceneBuilder::addIntegrator() {
   if (!options_.integrator.empty() && options_.integrator != wanted.plugin) {
     wanted = {};
     wanted.kind = "integrator", wanted.plugin = options_.integrator;
+  }
+  const Schema* schema = registry_.schema("integrator", wanted.plugin);
+  if (!options_.footprint.empty() && schema && schema->find("footprint")) {
+    auto footprint = std::make_shared<Block>();
+    footprint->kind = "footprint", footprint->plugin = options_.footprint;
+    Value value;
+    value.kind = Value::Kind::block, value.block = std::move(footprint);
+    wanted.settings.push_back({"footprint", value, {}});
   }
   impl_.integrator = create<Integrator>(wanted);
   impl_.integratorName = wanted.plugin;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/engine_schemas.h"
 
+#include <vestige/footprint/settings.h>
+
 namespace vestige {
 
 std::vector<Schema> engineSchemas() {
   Value whole = vectorValue({0, 0, 1, 1});
-  return {
+  std::vector<Schema> all = footprintSchemas();
+  const Schema blocks[] = {
       {.kind = "film",
        .name = "",
        .summary = "size of the picture and how samples become pixels",
@@ -25,6 +28,8 @@ std::vector<Schema> engineSchemas() {
        .summary = "several shapes as one: a brdf or a transform after them is for all",
        .children = {"shape", "union", "brdf"}},
   };
+  all.insert(all.end(), std::begin(blocks), std::end(blocks));
+  return all;
 }
 
 Schema withEngineRows(Schema schema) {

@@ -52,6 +52,23 @@ Rgba PlacedPigment::eval(const SurfacePoint& at, const Footprint& footprint) con
   return pigment->eval(lookup);
 }
 
+bool Material::usesFootprint() const noexcept {
+  return std::any_of(textured.begin(), textured.end(),
+                     [](const TexturedInput& t) { return t.isFiltered; });
+}
+
+Vec2 Material::texels() const noexcept {
+  Vec2 finest;
+  for (const TexturedInput& t : textured) {
+    const Vec2 n = t.pigment.pigment->texels();
+    // A pigment's own scale packs more or fewer of them into the surface's uv.
+    const Vec2 du = linearUv(t.pigment.fromUv, {1, 0}), dv = linearUv(t.pigment.fromUv, {0, 1});
+    const Vec2 m{std::hypot(n.x * du.x, n.y * du.y), std::hypot(n.x * dv.x, n.y * dv.y)};
+    if (m.x * m.y > finest.x * finest.y) finest = m;
+  }
+  return finest;
+}
+
 Real Material::opacityAt(const SurfacePoint& at) const noexcept {
   for (const TexturedInput& t : textured)
     if (t.input == opacity)
@@ -64,7 +81,7 @@ Inputs Material::evaluate(const SurfacePoint& at, const Footprint& footprint,
   if (textured.empty()) return Inputs(constants.data());
   buffer = constants;
   for (const TexturedInput& t : textured)
-    buffer[t.input] = toInput(t.pigment.eval(at, footprint), t);
+    buffer[t.input] = toInput(t.pigment.eval(at, t.isFiltered ? footprint : Footprint{}), t);
   return Inputs(buffer.data());
 }
 

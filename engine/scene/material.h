@@ -23,7 +23,8 @@ struct Material {
   struct TexturedInput {
     int input;
     bool isReal;     ///< takes the luminance
-    Real low, high;  ///< the schema's range, which a texture may not leave either
+    bool isFiltered;  ///< over the footprint; else looked up at the point
+    Real low, high;   ///< the schema's range, which a texture may not leave either
     PlacedPigment pigment;
   };
 
@@ -34,6 +35,9 @@ struct Material {
   bool hasNormalMap = false;
   bool isTranslucent = false;  ///< opacity may be below 1
 
+  bool usesFootprint() const noexcept;
+  /// Texels of the finest texture, a unit of uv; <0, 0> without one.
+  Vec2 texels() const noexcept;
   /// Opacity alone, for shadow rays.
   Real opacityAt(const SurfacePoint& at) const noexcept;
   /// Looks the inputs up; constants are not copied where nothing is textured.

@@ -49,6 +49,7 @@ void Scene::Impl::commit() {
     if (ownedLights[i]->isInfinite()) infinite.push_back(int(i));
   }
   lightTable.build(lightList);
+  for (const Material& m : materials) hasTextures |= m.usesFootprint();
 }
 
 Real Scene::Impl::transmittance(const Ray& ray) const noexcept {
@@ -78,5 +79,8 @@ const FilmSettings& Scene::film() const noexcept { return impl_->film; }
 std::size_t Scene::textureBytes() const noexcept { return impl_->textures.bytes(); }
 std::size_t Scene::triangles() const noexcept { return impl_->world.triangles(); }
 std::uint64_t Scene::hash() const noexcept { return impl_->hash; }
+const ObjectInfo& Scene::object(int index) const noexcept {
+  return impl_->objects[std::size_t(index)];
+}
 
 }  // namespace vestige

@@ -20,6 +20,13 @@ struct FilmSettings {
   double crop[4] = {0, 0, 1, 1};  ///< x0 y0 x1 y1 as shares of the film
 };
 
+/// Where an object of the scene came from, for people.
+struct ObjectInfo {
+  std::string shape;  ///< "sphere", "light area"
+  std::string brdf;   ///< "phong"; "": reflects nothing
+  Span span;          ///< of the shape in the scene's text
+};
+
 class Scene {
  public:
   Scene();
@@ -32,6 +39,7 @@ class Scene {
   std::size_t textureBytes() const noexcept;
   std::size_t triangles() const noexcept;
   std::uint64_t hash() const noexcept;  ///< of the description
+  const ObjectInfo& object(int index) const noexcept;  ///< by Surface::object
 
   struct Impl;
   Impl& impl() noexcept { return *impl_; }
@@ -41,7 +49,8 @@ class Scene {
 };
 
 struct BuildOptions {
-  std::string integrator;  ///< replaces the scene's own by name; "": the scene's, or `path`
+  std::string integrator = {};  ///< replaces the scene's own by name; "": the scene's, or `path`
+  std::string footprint = {};   ///< bound that replaces the integrator's; "": the scene's
 };
 
 /// Null if `diagnostics` got an error: missing file, refused parameter, singular transform, ...

@@ -27,6 +27,7 @@ struct Scene::Impl final : SceneView {
   World world;
   std::vector<Material> materials;
   std::vector<int> objectMaterial;                   ///< by Surface::object
+  std::vector<ObjectInfo> objects;                   ///< by Surface::object
   std::vector<std::shared_ptr<const Shape>> shapes;  ///< kept alive
   std::vector<std::shared_ptr<Light>> ownedLights;
   std::vector<const Light*> lightList;
@@ -37,6 +38,7 @@ struct Scene::Impl final : SceneView {
   std::string integratorName;
   FilmSettings film;
   std::uint64_t hash = 0;
+  bool hasTextures = false;
 
   /// After everything was added: builds the tree and the table of lights.
   void commit();
@@ -57,6 +59,8 @@ struct Scene::Impl final : SceneView {
   }
   Real lightChance(int light) const noexcept override { return lightTable.chance(light); }
   std::span<const int> infiniteLights() const noexcept override { return infinite; }
+  bool usesFootprints() const noexcept override { return hasTextures; }
+  Vec2 texels(const Surface& s) const noexcept override { return material(s).texels(); }
   Bounds bounds() const noexcept override { return world.bounds(); }
   std::span<const Patch> patches() const noexcept override { return world.patches(); }
   Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept override {

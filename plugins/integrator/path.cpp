@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Path tracing: next-event estimation and scattering, combined by multiple importance sampling;
-// Russian roulette.
+// Russian roulette. Paths carry their footprint where a texture looks at it.
 //
 // [Kaj86] Kajiya. The rendering equation. SIGGRAPH 1986.
 // [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
-#include <vestige/integrator.h>
+#include <vestige/footprint.h>
+#include <vestige/path_report.h>
 #include <vestige/plugin.h>
 #include <vestige/sampling.h>
 
@@ -25,11 +26,19 @@ struct Path {
   Rgb throughput{1, 1, 1};
   Rgb flux{1, 1, 1};     ///< throughput without eta^2: what roulette decides by
   Real pdf = kInfinity;  ///< of ray.direction, 1/sr; infinite after the camera and specular events
+  PathFootprint<>* footprint = nullptr;  ///< null: carries none
+  Real sceneSize = 0;
+  PathReport report;
+
+  Footprint region() const noexcept { return footprint ? footprint->footprint() : Footprint{}; }
+  void chance(Real probability) noexcept {
+    if (footprint) footprint->chance(probability);
+  }
 };
 
 class PathIntegrator final : public Integrator {
  public:
-  enum Param { kSamples, kDepth };
+  enum Param { kSamples, kDepth, kFootprint };
 
   static Schema schema() {
     return {
@@ -40,16 +49,29 @@ class PathIntegrator final : public Integrator {
             integer("samples", 16).range(1, 1 << 24).doc("paths a pixel"),
             integer("depth", 16)
                 .range(1, 4096)
-                .doc("longest path in edges from the camera: 1 sees emitters, 2 direct light")}};
+                .doc("longest path in edges from the camera: 1 sees emitters, 2 direct light"),
+            block("footprint", "footprint")
+                .doc("how large a region of a texture a path looks at (safe)")}};
   }
 
   explicit PathIntegrator(const Values& v)
-      : samples_(int(v.integer(kSamples))), depth_(int(v.integer(kDepth))) {}
+      : samples_(int(v.integer(kSamples))),
+        depth_(int(v.integer(kDepth))),
+        footprint_(footprintSettings(v.block(kFootprint), Bound::global)) {}
 
   int samples() const noexcept override { return samples_; }
 
   Rgb estimate(PathContext& context) const noexcept override {
-    Path path{.ray = context.ray, .from = context.ray.origin};
+    Path path{.ray = context.ray, .from = context.ray.origin, .report = PathReport(context)};
+    if (!carriesFootprint(context, footprint_)) return trace(context, path);
+    PathFootprint<> footprint;
+    footprint.begin(context, footprint_);
+    path.footprint = &footprint, path.sceneSize = sizeOf(context.scene);
+    return trace(context, path);
+  }
+
+ private:
+  Rgb trace(PathContext& context, Path& path) const noexcept {
     Rgb radiance;
     for (int edge = 1; edge <= depth_; ++edge) {
       InputBuffer buffer;
@@ -57,14 +79,16 @@ class PathIntegrator final : public Integrator {
       const std::optional<Surface> hit = nextSurface(context, path, edge, buffer, x, radiance);
       if (!hit) break;
       if (edge == 1 && context.aovs) writeAovs(*context.aovs, *hit, x);
-      if (edge == depth_) break;
+      if (edge == depth_) {
+        path.report.end(*hit, x.toPrev, path.throughput, "end", path.footprint);
+        break;
+      }
       radiance += path.throughput * directLight(context, *hit, x, edge);
       if (!scatter(context, path, *hit, x, edge)) break;
     }
     return radiance;
   }
 
- private:
   /// Follows the ray to the surface where it scatters; adds what shines on the way. nullopt: it
   /// left the scene.
   static std::optional<Surface> nextSurface(PathContext& c, Path& path, int edge,
@@ -75,15 +99,21 @@ class PathIntegrator final : public Integrator {
       const std::optional<Surface> hit = c.scene.intersect(path.ray);
       if (!hit) {
         radiance += path.throughput * background(c.scene, path);
+        path.report.escape(path.ray.direction, path.throughput);
         return std::nullopt;
       }
+      if (path.footprint) path.footprint->arrive(path.ray.direction, *hit, path.sceneSize);
       if (hit->light >= 0)
         radiance += path.throughput * misWeight(path.pdf, c.scene.lightPdf(*hit, path.from)) *
                     c.scene.emitted(*hit, path.from);
-      x = c.scene.shade(*hit, -path.ray.direction, {}, buffer);
+      x = c.scene.shade(*hit, -path.ray.direction, path.region(), buffer);
       const std::uint32_t dim = dimension::vertex(edge - 1) + dimension::kOpacity;
       // Layers beyond the first have numbers of their own, far from those of any vertex.
-      if (x.opacity >= 1 || c.sampler.number(dim + 0x10000u * layer) < x.opacity) return hit;
+      if (x.opacity >= 1) return hit;
+      const bool stays = c.sampler.number(dim + 0x10000u * layer) < x.opacity;
+      path.chance(stays ? x.opacity : 1 - x.opacity);
+      if (stays) return hit;
+      path.report.end(*hit, x.toPrev, path.throughput, "pass", path.footprint);
       path.ray = spawnRay(*hit, path.ray.direction);
     }
     return std::nullopt;
@@ -132,7 +162,13 @@ class PathIntegrator final : public Integrator {
                                  c.sampler.pair(dim + dimension::kDirection)};
     const std::optional<Scatter> next = drawScatter(x, numbers);
     if (edge == 1 && c.aovs && next) c.aovs->albedo = next->local.weight;
-    if (!next) return false;
+    if (!next) {
+      path.report.end(s, x.toPrev, path.throughput, "absorbed", path.footprint);
+      return false;
+    }
+    path.report.scatter(s, x.toPrev, path.throughput, *next, path.footprint);
+    if (path.footprint) path.footprint->scatter(s, x, *next, numbers);
+    path.report.left(path.footprint);
     path.throughput *= next->weight;
     path.flux *= next->local.weight;
     path.pdf = next->local.specular ? kInfinity : next->local.pdf;
@@ -146,12 +182,14 @@ class PathIntegrator final : public Integrator {
   static bool survives(Path& path, Real u) noexcept {
     const Real survival = std::min(kMaxSurvival, maxComponent(path.flux));
     if (!(u < survival)) return false;
+    path.chance(survival);
     path.throughput = path.throughput / survival;
     path.flux = path.flux / survival;
     return true;
   }
 
   int samples_, depth_;
+  FootprintSettings footprint_;
 };
 
 }  // namespace

@@ -3,15 +3,15 @@
 // every integrator; header-only; lives on the stack and never crosses the ABI.
 //
 //     PathFootprint<> f;
-//     f.begin(context.jacobian, context.cameraVariables, index, declaredSamples, settings);
-//     f.arrive(ray, surface, sceneSize);                     // MATH 1.3, 1.4
+//     f.begin(context, settings);
+//     f.arrive(ray.direction, surface, sceneSize);           // MATH 1.3, 1.4
 //     shade(surface, toPrev, f.footprint(), buffer);         // textures see the footprint
-//     f.scatter(interaction, drawn, numbers, split);         // MATH 1.5 to 1.10
+//     f.scatter(surface, interaction, drawn, numbers);       // MATH 1.5 to 1.10
 //     f.chance(survival);                                    // roulette, opacity
 //
-// footprint/differentials.h  the chain rule          footprint/deltas.h      how far a number may
-// move footprint/footprints.h     regions                 footprint/reduce.h      many numbers into
-// four
+// footprint/differentials.h  the chain rule      footprint/deltas.h    how far a number may move
+// footprint/footprints.h     regions             footprint/reduce.h    many numbers into four
+// footprint/settings.h       the scene's word on all this
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001.
 #pragma once
@@ -19,28 +19,28 @@
 #include <vestige/footprint/differentials.h>
 #include <vestige/footprint/footprints.h>
 #include <vestige/footprint/reduce.h>
+#include <vestige/footprint/settings.h>
 #include <vestige/integrator.h>
 
 namespace vestige {
 
-enum class RegionShape {
-  covariance,      ///< the ellipse with the vectors' second moments
-  representative,  ///< PD01's two vectors
-};
-
-struct FootprintSettings {
-  DeltaPolicy deltas;
-  RegionShape shape = RegionShape::covariance;
-  bool isOn() const noexcept { return deltas.bound != Bound::none; }
-};
-
 /// More numbers than this are reduced before the next event appends two.
 inline constexpr int kReduceAbove = 6;
+
+/// Into how many children a scattering splits: strata of its first times of its second number.
+struct Strata {
+  int u = 1, v = 1;
+};
 
 template <int Lanes = 8>
 class PathFootprint {
  public:
-  /// `index`: of the sample in its pixel; `declared`: samples a pixel, 0 if open ended.
+  /// A path from the camera.
+  void begin(const PathContext& c, const FootprintSettings& settings) noexcept {
+    begin(c.jacobian, c.cameraVariables, c.sampler.index(), c.declaredSamples, settings);
+  }
+  /// `index`: of the sample in its pixel; `declared`: samples a pixel, particles of all lights; 0 if
+  /// open ended.
   void begin(const RayJacobian& ray, int variables, std::uint64_t index, std::uint64_t declared,
              const FootprintSettings& settings) noexcept {
     settings_ = settings;
@@ -57,10 +57,8 @@ class PathFootprint {
   void arrive(Vec3 direction, const Surface& s, Real size) noexcept {
     normal_ = s.geometricNormal;
     direction_ = direction;
-    differentials_.transfer(direction, s.distance, s.geometricNormal, size);
-    const bool behind = dot(direction, s.geometricNormal) > 0;
-    const bool turned = dot(s.normal, s.geometricNormal) < 0;
-    motion_ = surfaceMotion(s, behind != turned ? Real(-1) : Real(1));
+    differentials_.transfer(direction, s.distance, s.geometricNormal, std::max(size, s.distance));
+    motion_ = surfaceMotion(s, direction);
   }
 
   /// The region around the vertex, in world space and in uv.
@@ -91,21 +89,34 @@ class PathFootprint {
     return polygonArea({v.data(), std::size_t(k)});
   }
 
-  /// Through a scattering drawn with these numbers at the vertex arrived at; `split`: into how many
-  /// children, strata included (1: none). Reduces first where there is no room.
-  void scatter(const Interaction& x, const Scatter& drawn, ScatterNumbers numbers,
-               int split = 1) noexcept {
+  /// Through a scattering drawn with these numbers at the surface arrived at. Where the path splits
+  /// into strata x strata children, `strata` says so (1: not at all). Reduces first where there is
+  /// no room.
+  void scatter(const Surface& s, const Interaction& x, const Scatter& drawn, ScatterNumbers numbers,
+               Strata strata = {}) noexcept {
     if (differentials_.size() > std::min(kReduceAbove, Lanes - 2)) reduceNow();
-    const ScatterEvent event{x.frame, direction_, drawn.toNext, motion_};
     const int before = differentials_.size();
-    differentials_.scatter(event, x.brdf->sampleDerivatives(x.point, numbers),
+    differentials_.scatter(event(s, x, drawn.toNext), x.brdf->sampleDerivatives(x.point, numbers),
                            x.brdf->logGradient(x.point, drawn.local.toNext), drawn.local.specular);
     count_.chance(drawn.local.lobeChance);
-    count_.split(split);
-    if (!drawn.local.specular) count_.drew(2);
-    const Real share =
-        settings_.deltas.bound == Bound::local ? 1 / std::sqrt(Real(split)) : Real(0);
-    for (int j = before; j < differentials_.size(); ++j) frozen_[j] = share;
+    count_.split(strata.u * strata.v);
+    if (drawn.local.specular) return;
+    count_.drew(2);
+    const bool isLocal = settings_.deltas.bound == Bound::local;
+    const auto own = [&](int n) {
+      return isLocal ? std::min(settings_.deltas.scale / Real(n), Real(1)) : Real(0);
+    };
+    if (before < Lanes) frozen_[before] = own(strata.u);
+    if (before + 1 < Lanes) frozen_[before + 1] = own(strata.v);
+  }
+
+  /// What a connection to a light moves by: the light's two numbers come last.
+  Differentials<Lanes + 4> connect(const Surface& s, const Interaction& x, Vec3 toLight,
+                                   const LightJacobian& light,
+                                   const LightLogGradient& lightLog) const noexcept {
+    return differentials_.connect(event(s, x, toLight),
+                                  x.brdf->logGradient(x.point, x.frame.toLocal(toLight)), light,
+                                  lightLog);
   }
 
   /// A discrete choice that the path survived, with its probability.
@@ -113,13 +124,18 @@ class PathFootprint {
 
   const Differentials<Lanes>& differentials() const noexcept { return differentials_; }
   const PathCount& count() const noexcept { return count_; }
-  const SurfaceMotion& motion() const noexcept { return motion_; }
 
-  /// delta_j: the bound, then the gradient's limit.
+  /// delta_j: the bound, then the gradient's limit, then the width of a sphere.
   Real delta(int j) const noexcept {
-    const bool own = isFrozen();
-    const Real bound = own ? frozen_[j] : commonDelta(settings_.deltas, count_);
-    return limited(bound, differentials_.gradient(j), settings_.deltas.limit);
+    return deltaWithin(isFrozen() ? frozen_[j] : commonDelta(settings_.deltas, count_), j);
+  }
+
+  /// The steepest relative change of the contribution with any of the numbers.
+  Real steepest() const noexcept {
+    Real g = 0;
+    for (int j = 0; j < differentials_.size(); ++j)
+      g = std::max(g, std::abs(differentials_.gradient(j)));
+    return g;
   }
 
  private:
@@ -127,13 +143,21 @@ class PathFootprint {
     return settings_.deltas.bound == Bound::local || settings_.deltas.bound == Bound::pixel;
   }
 
+  Real deltaWithin(Real bound, int j) const noexcept {
+    return std::min(limited(bound, differentials_.gradient(j), settings_.deltas.limit),
+                    differentials_.largestDelta(j));
+  }
+
+  ScatterEvent event(const Surface& s, const Interaction& x, Vec3 leaving) const noexcept {
+    return {x.frame, direction_, leaving, frameMotion(s, motion_, x.frame)};
+  }
+
   /// Differential vectors, delta multiplied in, in the plane of f. Returns how many.
   int vectors(const Frame& f, std::array<Vec2, Lanes>& out) const noexcept {
     const bool own = isFrozen();
     const Real common = own ? 0 : commonDelta(settings_.deltas, count_);
     for (int j = 0; j < differentials_.size(); ++j) {
-      const Real d =
-          limited(own ? frozen_[j] : common, differentials_.gradient(j), settings_.deltas.limit);
+      const Real d = deltaWithin(own ? frozen_[j] : common, j);
       const Vec3 v = differentials_.dVertex(j);
       out[std::size_t(j)] = {d * dot(v, f.s), d * dot(v, f.t)};
     }

@@ -7,6 +7,7 @@
 
 #include <vestige/brdf.h>
 #include <vestige/camera.h>
+#include <vestige/footprint/deltas.h>
 #include <vestige/light.h>
 #include <vestige/pigment.h>
 #include <vestige/sampler.h>
@@ -88,6 +89,11 @@ class SceneView {
   virtual Real lightChance(int light) const noexcept = 0;
   /// Indices into lights() of those at infinity.
   virtual std::span<const int> infiniteLights() const noexcept = 0;
+
+  /// Whether any material looks something up over a footprint. If not, paths need carry none.
+  virtual bool usesFootprints() const noexcept = 0;
+  /// Texels that one unit of uv spans in the finest texture of a surface; <0, 0>: it has none.
+  virtual Vec2 texels(const Surface& surface) const noexcept = 0;
 
   /// Extent of everything finite.
   virtual Bounds bounds() const noexcept = 0;
@@ -173,7 +179,9 @@ struct Aovs {
   Real depth{};  ///< distance along the ray, scene units; 0 where nothing was hit
   Vec3 position;
   Vec2 uv;
-  Real footprint{}, footprintTexels{}, gradient{};  ///< size in scene units, in texels; max |g_j|
+  /// Where the first scattering happens that is not specular: side of the square that has the
+  /// footprint's area, in scene units and in texels; after it, the largest |g_j|.
+  Real footprint{}, footprintTexels{}, gradient{};
 };
 
 /// What one thread counted.
@@ -181,12 +189,26 @@ struct Counters {
   std::uint64_t rays = 0, shadowRays = 0, paths = 0, nonFinite = 0, clamped = 0;
 };
 
+/// The differentials at one vertex of a recorded path, on arrival there.
+struct VertexDifferentials {
+  static constexpr int kMost = 8;
+  int size = 0;  ///< how many numbers are followed; 0: the path carries none
+  Vec3 dVertex[kMost], dDirection[kMost];       ///< per unit of each number
+  Real gradient[kMost] = {}, delta[kMost] = {};  ///< g_j; delta_j as the scene's bound has it
+  PathCount count;
+  Footprint footprint;
+  Real area = 0;  ///< exact, of the polygon that the vectors span; scene units squared
+};
+
 /// One vertex of a recorded path: `inspect` prints it, the window draws it.
 struct PathVertex {
   Surface surface;
   Vec3 toPrev;
-  Rgb throughput;
-  const char* event;  ///< "camera", "scatter", "pass", "light", "escape", "absorbed"
+  Rgb throughput;                  ///< on arrival
+  const char* event = "";          ///< "scatter", "pass", "end", "escape", "absorbed", "roulette"
+  std::optional<ScatterSample> scattered;
+  Vec2 texels;                     ///< SceneView::texels()
+  VertexDifferentials differentials;
 };
 class PathRecord {
  public:
@@ -204,6 +226,7 @@ struct PathContext {
   std::uint64_t declaredSamples = 0;  ///< samples a pixel the scene asked for; 0: open ended
   Counters& counters;
   Aovs* aovs = nullptr;          ///< null: not wanted
+  bool wantsFootprint = false;   ///< carry differentials though no texture asks
   PathRecord* record = nullptr;  ///< null: not wanted
 };
 

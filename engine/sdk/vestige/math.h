@@ -150,6 +150,10 @@ inline constexpr Mat3 diagonal(Real x, Real y, Real z) noexcept {
 inline constexpr Mat3 identity() noexcept { return diagonal(1, 1, 1); }
 /// a b^T
 inline constexpr Mat3 outer(Vec3 a, Vec3 b) noexcept { return {b.x * a, b.y * a, b.z * a}; }
+/// [v]x: takes a to v x a.
+inline constexpr Mat3 crossMatrix(Vec3 v) noexcept {
+  return {Vec3{0, v.z, -v.y}, Vec3{-v.z, 0, v.x}, Vec3{v.y, -v.x, 0}};
+}
 inline constexpr Mat3 transpose(const Mat3& m) noexcept {
   return {Vec3{m.c[0].x, m.c[1].x, m.c[2].x}, Vec3{m.c[0].y, m.c[1].y, m.c[2].y},
           Vec3{m.c[0].z, m.c[1].z, m.c[2].z}};

@@ -50,6 +50,7 @@ struct SurfacePoint {
   Vec2 uv;
   Vec3 dPdu, dPdv;  ///< scene units per unit of uv
   Vec3 dNdu, dNdv;  ///< of `normal`; zero where flat
+  Vec3 dPduu, dPduv, dPdvv;  ///< second derivatives; zero where flat
 };
 
 /// A point drawn from the surface.

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The `footprint` block of the scene language, as data:
+//     integrator path { footprint gradient { limit 0.5 } }
+#pragma once
+#include <vestige/footprint/deltas.h>
+#include <vestige/inputs.h>
+
+namespace vestige {
+
+enum class RegionShape {
+  covariance,      ///< the ellipse with the vectors' second moments
+  representative,  ///< PD01's two vectors
+};
+
+struct FootprintSettings {
+  DeltaPolicy deltas;
+  RegionShape shape = RegionShape::covariance;
+  bool isOn() const noexcept { return deltas.bound != Bound::none; }
+};
+
+/// Largest relative change over a footprint, where limits are wanted and none is given [PD01 4.1].
+inline constexpr Real kDefaultLimit = Real(0.7);
+
+/// One for each bound. Engine: part of its registry.
+inline std::vector<Schema> footprintSchemas() {
+  const std::pair<const char*, const char*> bounds[] = {
+      {"none", "textures are looked up at points"},
+      {"pixel", "the film's numbers alone: Igehy's ray differentials"},
+      {"local", "1/sqrt of the samples drawn at each event (Suykens and Willems, 3.1)"},
+      {"global", "N_eff^(-1/M): all numbers of a path share its samples (Suykens and Willems, 3.1)"},
+      {"safe", "shrinks with the sample's own index: never worse than none, the default"},
+      {"gradient", "the paper's bound for this integrator, with limit 0.7"},
+      {"paper", "the paper's bound and its representative vectors"}};
+  std::vector<Schema> all;
+  for (const auto& [name, summary] : bounds) {
+    Schema s{.kind = "footprint", .name = name, .summary = summary};
+    if (s.name != "none")
+      s.params = {
+          real("limit", 0).unset().range(0, 1e6).doc(
+              "largest relative change of the contribution over a footprint; none unless given"),
+          choice("shape", {"covariance", "representative"})
+              .unset()
+              .doc("ellipse with the vectors' second moments, or the paper's two vectors"),
+          real("scale", 1).range(0, 1000).doc("multiplies the bound"),
+          real("exponent", 0).unset().range(0, 8).doc(
+              "of the sample count in global (1/M) and safe (3/4)")};
+    all.push_back(std::move(s));
+  }
+  return all;
+}
+
+/// What a block says; `fallback` where there is none. `native` is the paper's bound for the
+/// integrator that asks: local where paths split, global where they do not.
+inline FootprintSettings footprintSettings(const Block* block, Bound native,
+                                           FootprintSettings fallback = {}) {
+  if (!block) return fallback;
+  FootprintSettings s;
+  const std::string& word = block->plugin;
+  s.deltas.bound = word == "none"     ? Bound::none
+                   : word == "pixel"  ? Bound::pixel
+                   : word == "local"  ? Bound::local
+                   : word == "global" ? Bound::global
+                   : word == "safe"   ? Bound::safe
+                                      : native;
+  if (word == "gradient") s.deltas.limit = kDefaultLimit;
+  if (word == "paper") s.shape = RegionShape::representative;
+  const auto number = [&](const char* name, Real& into) {
+    if (const Value* v = block->find(name)) into = Real(v->v[0]);
+  };
+  number("limit", s.deltas.limit);
+  number("scale", s.deltas.scale);
+  number("exponent", s.deltas.exponent);
+  if (const Value* v = block->find("shape"))
+    s.shape = v->text == "representative" ? RegionShape::representative : RegionShape::covariance;
+  return s;
+}
+
+}  // namespace vestige

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an integrator tells about a path on its way, for those who asked: footprint AOVs, and the
+// record that `inspect` prints and the window draws. Costs nothing where nobody did.
+#pragma once
+#include <vestige/footprint.h>
+
+namespace vestige {
+
+/// Whether this path needs differentials at all.
+inline bool carriesFootprint(const PathContext& c, const FootprintSettings& settings) noexcept {
+  return settings.isOn() && (c.wantsFootprint || c.record || c.scene.usesFootprints());
+}
+
+/// Diameter of everything finite; infinite where there is nothing finite.
+inline Real sizeOf(const SceneView& scene) noexcept {
+  const Bounds b = scene.bounds();
+  return b.isEmpty() ? kInfinity : length(b.size());
+}
+
+/// Side of the square that has the area of the parallelogram of a footprint.
+inline Real sideOf(const Footprint& f) noexcept {
+  return std::sqrt(length(cross(f.dP[0], f.dP[1])));
+}
+/// The same in texels.
+inline Real texelSideOf(const Footprint& f, Vec2 texels) noexcept {
+  return std::sqrt(std::abs(cross(f.dUv[0], f.dUv[1])) * texels.x * texels.y);
+}
+
+class PathReport {
+ public:
+  explicit PathReport(PathContext& c) noexcept
+      : scene_(c.scene), aovs_(c.wantsFootprint ? c.aovs : nullptr), record_(c.record) {}
+
+  /// The path reached a surface and scattered; before the footprint knows.
+  template <int Lanes>
+  void scatter(const Surface& s, Vec3 toPrev, Rgb throughput, const Scatter& drawn,
+               const PathFootprint<Lanes>* f) noexcept {
+    if (record_) record_->add(vertex(s, toPrev, throughput, "scatter", f, drawn.local));
+    if (!aovs_ || !f || drawn.local.specular) return;
+    const Footprint region = f->footprint();
+    aovs_->footprint = sideOf(region);
+    aovs_->footprintTexels = texelSideOf(region, scene_.texels(s));
+    isWaiting_ = true;
+  }
+  /// ... and now the footprint knows.
+  template <int Lanes>
+  void left(const PathFootprint<Lanes>* f) noexcept {
+    if (!isWaiting_) return;
+    aovs_->gradient = f->steepest();
+    aovs_ = nullptr, isWaiting_ = false;  // only the first of them
+  }
+
+  /// The path reached a surface and passed through, or ended there.
+  template <int Lanes>
+  void end(const Surface& s, Vec3 toPrev, Rgb throughput, const char* event,
+           const PathFootprint<Lanes>* f) noexcept {
+    if (record_) record_->add(vertex(s, toPrev, throughput, event, f, std::nullopt));
+  }
+
+  /// The path left the scene.
+  void escape(Vec3 direction, Rgb throughput) noexcept {
+    if (!record_) return;
+    PathVertex v;
+    v.toPrev = -direction, v.throughput = throughput, v.event = "escape";
+    record_->add(v);
+  }
+
+ private:
+  template <int Lanes>
+  PathVertex vertex(const Surface& s, Vec3 toPrev, Rgb throughput, const char* event,
+                    const PathFootprint<Lanes>* f,
+                    const std::optional<ScatterSample>& scattered) const noexcept {
+    PathVertex v;
+    v.surface = s, v.toPrev = toPrev, v.throughput = throughput, v.event = event;
+    v.scattered = scattered, v.texels = scene_.texels(s);
+    if (!f) return v;
+    VertexDifferentials& d = v.differentials;
+    d.size = std::min(f->differentials().size(), VertexDifferentials::kMost);
+    for (int j = 0; j < d.size; ++j) {
+      d.dVertex[j] = f->differentials().dVertex(j);
+      d.dDirection[j] = f->differentials().dDirection(j);
+      d.gradient[j] = f->differentials().gradient(j);
+      d.delta[j] = f->delta(j);
+    }
+    d.count = f->count(), d.footprint = f->footprint(), d.area = f->area();
+    return v;
+  }
+
+  const SceneView& scene_;
+  Aovs* aovs_;
+  PathRecord* record_;
+  bool isWaiting_ = false;
+};
+
+}  // namespace vestige
