@@ -59,6 +59,7 @@ SurfacePoint Place::world(const SurfacePoint& o) const noexcept {
   w.normal = n / l;
   w.uv = o.uv;
   w.dPdu = linear * o.dPdu, w.dPdv = linear * o.dPdv;
+  w.dPduu = linear * o.dPduu, w.dPduv = linear * o.dPduv, w.dPdvv = linear * o.dPdvv;
   const auto turn = [&](Vec3 d) {  // N = n/|n|, so dN = P(N) dn / |n|
     const Vec3 x = normals * d;
     return (x - dot(w.normal, x) * w.normal) / l;

@@ -69,6 +69,8 @@ struct Annulus {
     const double wide = 2 * exact::kPi * std::max(r, exact::kPole * radius);
     p.dPdu = axes.world({-wide * s, wide * c, 0});
     p.dPdv = (radius - hole) * axes.world({c, s, 0});
+    p.dPduu = -4 * exact::kPi * exact::kPi * r * axes.world({c, s, 0});
+    p.dPduv = 2 * exact::kPi * (radius - hole) * axes.world({-s, c, 0});
     return p;
   }
 };

@@ -99,6 +99,8 @@ class Frustum : public Shape {
     p.dPdu = wide * around;
     p.dPdv = axes_.world({slope_ * height_ * c, slope_ * height_ * s, height_});
     p.dNdu = (2 * exact::kPi / slant_) * around;
+    p.dPduu = -4 * exact::kPi * exact::kPi * r * axes_.world({c, s, 0});
+    p.dPduv = 2 * exact::kPi * slope_ * height_ * around;
     return p;
   }
 

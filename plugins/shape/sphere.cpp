@@ -148,6 +148,10 @@ class Sphere final : public Shape {
     s.dNdu = 2 * exact::kPi * wide * V{-out.z, 0, out.x};
     s.dNdv = exact::kPi * V{-n.y * out.x, ring, -n.y * out.z};
     s.dPdu = r_ * s.dNdu, s.dPdv = r_ * s.dNdv;
+    const double turn = exact::kPi * exact::kPi * r;  // by u an angle of 2 pi, by v of pi
+    s.dPduu = -4 * turn * V{n.x, 0, n.z};
+    s.dPduv = -2 * turn * n.y * V{-out.z, 0, out.x};
+    s.dPdvv = -turn * n;
     return s;
   }
 

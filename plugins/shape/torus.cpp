@@ -158,6 +158,10 @@ class Torus final : public Shape {
     s.uv = {Real(exact::turns(ca, sa)), Real(exact::turns(cb, sb))};
     s.dPdu = 2 * exact::kPi * ring * around, s.dPdv = 2 * exact::kPi * r_ * up;
     s.dNdu = 2 * exact::kPi * cb * around, s.dNdv = 2 * exact::kPi * up;
+    constexpr double turn = 4 * exact::kPi * exact::kPi;
+    s.dPduu = -turn * ring * V{ca, 0, sa};
+    s.dPduv = -turn * r_ * sb * around;
+    s.dPdvv = -turn * r_ * n;
     return s;
   }
 

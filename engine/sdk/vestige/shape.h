@@ -42,7 +42,7 @@ struct ShapeHit {
   int part = 0;  ///< which face: lid, side, ...
 };
 
-/// The surface at a point: position, normals, uv and first derivatives by uv.
+/// The surface at a point: position, normals, uv, and how position and normal move with uv.
 struct SurfacePoint {
   Vec3 position;         ///< on the surface, within rounding
   Vec3 geometricNormal;  ///< unit
@@ -50,7 +50,9 @@ struct SurfacePoint {
   Vec2 uv;
   Vec3 dPdu, dPdv;  ///< scene units per unit of uv
   Vec3 dNdu, dNdv;  ///< of `normal`; zero where flat
-  Vec3 dPduu, dPduv, dPdvv;  ///< second derivatives; zero where flat
+  /// Second derivatives of position, scene units per unit of uv squared: how the tangents turn in
+  /// the surface as one walks on it. Zero on triangles and wherever uv is a straight grid.
+  Vec3 dPduu, dPduv, dPdvv;
 };
 
 /// A point drawn from the surface.
