@@ -62,7 +62,9 @@ void addInspect(CLI::App& program, Action& chosen) {
   const auto r = std::make_shared<InspectRequest>();
   addSceneOptions(*command, r->input);
   const auto pixel = [&](const char* name, int& into, const char* help) {
-    addInteger(*command, name, 0, 65535, [&into](auto n) { into = int(n); }, help)->required();
+    addInteger(
+        *command, name, 0, 65535, [&into](auto n) { into = int(n); }, help)
+        ->required();
   };
   pixel("x", r->x, "column of the pixel, from the left");
   pixel("y", r->y, "row of the pixel, from the top");

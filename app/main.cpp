@@ -41,10 +41,11 @@ Words withCommand(Words words) {
                       std::filesystem::exists(words[0], ignored);
   if (!isFile && words[0][0] != '-') {
     const std::string near = nearestWord(words[0], kCommands);
-    throw Failure(kCommandLineWrong,
-                  fmt::format("there is no command and no scene file '{}'; {}", words[0],
-                              near.empty() ? "the commands are render, inspect, check, describe, compare"
-                                           : fmt::format("did you mean '{}'?", near)));
+    throw Failure(
+        kCommandLineWrong,
+        fmt::format("there is no command and no scene file '{}'; {}", words[0],
+                    near.empty() ? "the commands are render, inspect, check, describe, compare"
+                                 : fmt::format("did you mean '{}'?", near)));
   }
   words.insert(words.begin(), "render");
   return words;

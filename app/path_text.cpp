@@ -32,8 +32,10 @@ std::string eventText(const PathVertex& v) {
   if (event == "absorbed") return "is absorbed";
   if (event == "end") return "ends: longest path";
   const ScatterSample& s = *v.scattered;
-  std::string t = s.specular ? "goes on, specular" : fmt::format("scatters, pdf {} 1/sr", text(s.pdf));
-  if (s.lobeChance < 1) t += fmt::format(", lobe {} drawn with chance {}", s.lobe, text(s.lobeChance));
+  std::string t =
+      s.specular ? "goes on, specular" : fmt::format("scatters, pdf {} 1/sr", text(s.pdf));
+  if (s.lobeChance < 1)
+    t += fmt::format(", lobe {} drawn with chance {}", s.lobe, text(s.lobeChance));
   return t;
 }
 
@@ -44,14 +46,15 @@ std::string boundsText(const PathCount& count) {
     p.bound = b;
     return text(commonDelta(p, count));
   };
-  return fmt::format("pixel {0} for the film, local {0} for the film and 1 after it, global {1}, "
-                     "safe {2}; a limit of 0.7 grants 0.7/|g| at most",
-                     of(Bound::local), of(Bound::global), of(Bound::safe));
+  return fmt::format(
+      "pixel {0} for the film, local {0} for the film and 1 after it, global {1}, "
+      "safe {2}; a limit of 0.7 grants 0.7/|g| at most",
+      of(Bound::local), of(Bound::global), of(Bound::safe));
 }
 
 std::string differentialsText(const VertexDifferentials& d, const std::vector<std::string>& names) {
-  std::string t = fmt::format("    {:<12}{:>11}{:>11}{:>11}{:>11}{:>13}\n", "number", "|dV|", "|dD|",
-                              "g", "delta", "delta |dV|");
+  std::string t = fmt::format("    {:<12}{:>11}{:>11}{:>11}{:>11}{:>13}\n", "number", "|dV|",
+                              "|dD|", "g", "delta", "delta |dV|");
   for (int j = 0; j < d.size; ++j) {
     const Real v = length(d.dVertex[j]);
     t += fmt::format("    {:<12}{:>11}{:>11}{:>11}{:>11}{:>13}\n", names[std::size_t(j)], text(v),
@@ -68,7 +71,9 @@ std::string footprintText(const PathVertex& v) {
   t += fmt::format("                {} x {} scene units; exact area of all numbers {}\n",
                    text(length(f.dP[0])), text(length(f.dP[1])), text(d.area));
   if (v.texels.x > 0) {
-    const auto texels = [&](Vec2 uv) { return text(std::hypot(uv.x * v.texels.x, uv.y * v.texels.y)); };
+    const auto texels = [&](Vec2 uv) {
+      return text(std::hypot(uv.x * v.texels.x, uv.y * v.texels.y));
+    };
     t += fmt::format("                {} x {} texels of its finest texture\n", texels(f.dUv[0]),
                      texels(f.dUv[1]));
   }
@@ -82,7 +87,8 @@ std::string vertexText(std::size_t k, const PathVertex& v, const std::vector<std
   std::string t = fmt::format("{}  {}\n    at          {}, {} from the last point\n", k,
                               objectText(v.surface, loaded), text(v.surface.position),
                               text(v.surface.distance));
-  t += fmt::format("    throughput  {} on arrival; the path {}\n", text(v.throughput), eventText(v));
+  t +=
+      fmt::format("    throughput  {} on arrival; the path {}\n", text(v.throughput), eventText(v));
   const VertexDifferentials& d = v.differentials;
   if (d.size == 0) return t + "    carries no differentials\n";
   t += fmt::format("    counts      M {} numbers so far, N_eff {} paths like this one\n",
@@ -106,8 +112,7 @@ Json differentialsJson(const VertexDifferentials& d, const std::vector<std::stri
 
 Json vertexJson(const PathVertex& v, const std::vector<std::string>& names,
                 const LoadedScene& loaded) {
-  Json j = {{"event", v.event},
-            {"throughput", {v.throughput.r, v.throughput.g, v.throughput.b}}};
+  Json j = {{"event", v.event}, {"throughput", {v.throughput.r, v.throughput.g, v.throughput.b}}};
   if (std::string(v.event) == "escape") return j["direction"] = json(-v.toPrev), j;
   const ObjectInfo& o = loaded.scene->object(v.surface.object);
   j["shape"] = o.shape, j["brdf"] = o.brdf;

@@ -12,9 +12,8 @@ namespace vestige::app {
 namespace {
 
 constexpr int kMaxSide = 65536;  // pixels
-constexpr Aov kAovs[] = {Aov::normal,   Aov::albedo,    Aov::depth,
-                         Aov::position, Aov::uv,        Aov::samples,
-                         Aov::footprint, Aov::footprintTexels, Aov::gradient};
+constexpr Aov kAovs[] = {Aov::normal,  Aov::albedo,    Aov::depth,           Aov::position, Aov::uv,
+                         Aov::samples, Aov::footprint, Aov::footprintTexels, Aov::gradient};
 
 std::vector<Aov> parseAovs(const std::string& text) {
   std::vector<Aov> wanted;
@@ -93,7 +92,8 @@ void addPicture(CLI::App& command, RenderRequest& r) {
   const auto aov = [&](const std::string& text) { r.aovs = parseAovs(text); };
   command
       .add_option_function<std::string>(
-          "--aov", aov, "further channels: normal,albedo,depth,position,uv,samples,footprint,"
+          "--aov", aov,
+          "further channels: normal,albedo,depth,position,uv,samples,footprint,"
           "footprint.texels,gradient or all")
       ->take_last()
       ->type_name("LIST")

@@ -252,15 +252,14 @@ Rgb inspectSample(Scene& scene, const Film& film, int x, int y, std::uint32_t in
   const auto start = cameraRay(scene.camera(), PixelFilterSampler(scene.film().filter), sampler, x,
                                y, film.width(), film.height());
   if (!start) return {};
-  PathContext context{
-      .scene = scene.view(),
-      .sampler = sampler,
-      .ray = {start->ray.origin, start->ray.direction, 0, kInfinity},
-      .jacobian = start->jacobian,
-      .cameraVariables = scene.camera().variables(),
-      .declaredSamples = std::uint64_t(wantedSamples(scene.integrator(), options)),
-      .counters = counters,
-      .record = &record};
+  PathContext context{.scene = scene.view(),
+                      .sampler = sampler,
+                      .ray = {start->ray.origin, start->ray.direction, 0, kInfinity},
+                      .jacobian = start->jacobian,
+                      .cameraVariables = scene.camera().variables(),
+                      .declaredSamples = std::uint64_t(wantedSamples(scene.integrator(), options)),
+                      .counters = counters,
+                      .record = &record};
   return start->ray.weight * scene.integrator().estimate(context);
 }
 

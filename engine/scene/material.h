@@ -22,7 +22,7 @@ struct PlacedPigment {
 struct Material {
   struct TexturedInput {
     int input;
-    bool isReal;     ///< takes the luminance
+    bool isReal;      ///< takes the luminance
     bool isFiltered;  ///< over the footprint; else looked up at the point
     Real low, high;   ///< the schema's range, which a texture may not leave either
     PlacedPigment pigment;

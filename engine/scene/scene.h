@@ -38,7 +38,7 @@ class Scene {
   const FilmSettings& film() const noexcept;
   std::size_t textureBytes() const noexcept;
   std::size_t triangles() const noexcept;
-  std::uint64_t hash() const noexcept;  ///< of the description
+  std::uint64_t hash() const noexcept;                 ///< of the description
   const ObjectInfo& object(int index) const noexcept;  ///< by Surface::object
 
   struct Impl;

@@ -41,17 +41,16 @@ class PathIntegrator final : public Integrator {
   enum Param { kSamples, kDepth, kFootprint };
 
   static Schema schema() {
-    return {
-        .kind = "integrator",
-        .name = "path",
-        .summary = "path tracing with next-event estimation and multiple importance sampling",
-        .params = {
-            integer("samples", 16).range(1, 1 << 24).doc("paths a pixel"),
-            integer("depth", 16)
-                .range(1, 4096)
-                .doc("longest path in edges from the camera: 1 sees emitters, 2 direct light"),
-            block("footprint", "footprint")
-                .doc("how large a region of a texture a path looks at (safe)")}};
+    return {.kind = "integrator",
+            .name = "path",
+            .summary = "path tracing with next-event estimation and multiple importance sampling",
+            .params = {
+                integer("samples", 16).range(1, 1 << 24).doc("paths a pixel"),
+                integer("depth", 16)
+                    .range(1, 4096)
+                    .doc("longest path in edges from the camera: 1 sees emitters, 2 direct light"),
+                block("footprint", "footprint")
+                    .doc("how large a region of a texture a path looks at (safe)")}};
   }
 
   explicit PathIntegrator(const Values& v)

@@ -24,14 +24,12 @@
 
 namespace vestige {
 
-/// More numbers than this are reduced before the next event appends two.
-inline constexpr int kReduceAbove = 6;
-
 /// Into how many children a scattering splits: strata of its first times of its second number.
 struct Strata {
   int u = 1, v = 1;
 };
 
+/// Lanes: the most numbers that are followed; when the next event would not fit, they are reduced.
 template <int Lanes = 8>
 class PathFootprint {
  public:
@@ -39,8 +37,8 @@ class PathFootprint {
   void begin(const PathContext& c, const FootprintSettings& settings) noexcept {
     begin(c.jacobian, c.cameraVariables, c.sampler.index(), c.declaredSamples, settings);
   }
-  /// `index`: of the sample in its pixel; `declared`: samples a pixel, particles of all lights; 0 if
-  /// open ended.
+  /// `index`: of the sample in its pixel; `declared`: samples a pixel, particles of all lights; 0
+  /// if open ended.
   void begin(const RayJacobian& ray, int variables, std::uint64_t index, std::uint64_t declared,
              const FootprintSettings& settings) noexcept {
     settings_ = settings;
@@ -94,7 +92,7 @@ class PathFootprint {
   /// no room.
   void scatter(const Surface& s, const Interaction& x, const Scatter& drawn, ScatterNumbers numbers,
                Strata strata = {}) noexcept {
-    if (differentials_.size() > std::min(kReduceAbove, Lanes - 2)) reduceNow();
+    if (differentials_.size() > Lanes - 2) reduceNow();
     const int before = differentials_.size();
     differentials_.scatter(event(s, x, drawn.toNext), x.brdf->sampleDerivatives(x.point, numbers),
                            x.brdf->logGradient(x.point, drawn.local.toNext), drawn.local.specular);

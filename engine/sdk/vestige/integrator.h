@@ -193,7 +193,7 @@ struct Counters {
 struct VertexDifferentials {
   static constexpr int kMost = 8;
   int size = 0;  ///< how many numbers are followed; 0: the path carries none
-  Vec3 dVertex[kMost], dDirection[kMost];       ///< per unit of each number
+  Vec3 dVertex[kMost], dDirection[kMost];        ///< per unit of each number
   Real gradient[kMost] = {}, delta[kMost] = {};  ///< g_j; delta_j as the scene's bound has it
   PathCount count;
   Footprint footprint;
@@ -204,10 +204,10 @@ struct VertexDifferentials {
 struct PathVertex {
   Surface surface;
   Vec3 toPrev;
-  Rgb throughput;                  ///< on arrival
-  const char* event = "";          ///< "scatter", "pass", "end", "escape", "absorbed", "roulette"
+  Rgb throughput;          ///< on arrival
+  const char* event = "";  ///< "scatter", "pass", "end", "escape", "absorbed", "roulette"
   std::optional<ScatterSample> scattered;
-  Vec2 texels;                     ///< SceneView::texels()
+  Vec2 texels;  ///< SceneView::texels()
   VertexDifferentials differentials;
 };
 class PathRecord {

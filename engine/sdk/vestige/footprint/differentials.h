@@ -27,8 +27,8 @@ struct SurfaceMotion {
   Vec3 du, dv;     ///< gradients of u and v: d(uv) = (du . dV, dv . dV)
 };
 
-/// [MATH 1.4]. For a path that arrives along `direction`: a normal that is turned to face it changes
-/// with the opposite sign. Degenerate uv: no change.
+/// [MATH 1.4]. For a path that arrives along `direction`: a normal that is turned to face it
+/// changes with the opposite sign. Degenerate uv: no change.
 inline SurfaceMotion surfaceMotion(const SurfacePoint& s, Vec3 direction) noexcept {
   const bool behind = dot(direction, s.geometricNormal) > 0;
   const bool turned = dot(s.normal, s.geometricNormal) < 0;
@@ -71,8 +71,8 @@ inline FrameMotion frameMotion(const SurfacePoint& s, const SurfaceMotion& m,
   FrameMotion r{m.dNormal, {}};
   if (lengthSquared(f.n - m.normal) > Real(1e-8)) {
     const Frame base = Frame::along(m.normal, s.dPdu);
-    const Mat3 turn = crossMatrix(m.normal) * m.dNormal +
-                      outer(m.normal, detail::twistOf(s, m, base, m.dNormal));
+    const Mat3 turn =
+        crossMatrix(m.normal) * m.dNormal + outer(m.normal, detail::twistOf(s, m, base, m.dNormal));
     r.dNormal = Real(-1) * (crossMatrix(f.n) * turn);  // dn = omega x n
   }
   r.twist = detail::twistOf(s, m, f, r.dNormal);

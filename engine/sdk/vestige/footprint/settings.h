@@ -27,7 +27,8 @@ inline std::vector<Schema> footprintSchemas() {
       {"none", "textures are looked up at points"},
       {"pixel", "the film's numbers alone: Igehy's ray differentials"},
       {"local", "1/sqrt of the samples drawn at each event (Suykens and Willems, 3.1)"},
-      {"global", "N_eff^(-1/M): all numbers of a path share its samples (Suykens and Willems, 3.1)"},
+      {"global",
+       "N_eff^(-1/M): all numbers of a path share its samples (Suykens and Willems, 3.1)"},
       {"safe", "shrinks with the sample's own index: never worse than none, the default"},
       {"gradient", "the paper's bound for this integrator, with limit 0.7"},
       {"paper", "the paper's bound and its representative vectors"}};
@@ -35,15 +36,19 @@ inline std::vector<Schema> footprintSchemas() {
   for (const auto& [name, summary] : bounds) {
     Schema s{.kind = "footprint", .name = name, .summary = summary};
     if (s.name != "none")
-      s.params = {
-          real("limit", 0).unset().range(0, 1e6).doc(
-              "largest relative change of the contribution over a footprint; none unless given"),
-          choice("shape", {"covariance", "representative"})
-              .unset()
-              .doc("ellipse with the vectors' second moments, or the paper's two vectors"),
-          real("scale", 1).range(0, 1000).doc("multiplies the bound"),
-          real("exponent", 0).unset().range(0, 8).doc(
-              "of the sample count in global (1/M) and safe (3/4)")};
+      s.params = {real("limit", 0)
+                      .unset()
+                      .range(0, 1e6)
+                      .doc("largest relative change of the contribution over a footprint; none "
+                           "unless given"),
+                  choice("shape", {"covariance", "representative"})
+                      .unset()
+                      .doc("ellipse with the vectors' second moments, or the paper's two vectors"),
+                  real("scale", 1).range(0, 1000).doc("multiplies the bound"),
+                  real("exponent", 0)
+                      .unset()
+                      .range(0, 8)
+                      .doc("of the sample count in global (1/M) and safe (3/4)")};
     all.push_back(std::move(s));
   }
   return all;
