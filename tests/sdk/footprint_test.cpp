@@ -177,8 +177,19 @@ TEST_CASE("deltas of each bound", "[footprint]") {
   for (int i = 0; i < 100; ++i) c.chance(Real(0.1));
   CHECK(commonDelta(p, c) == 1);  // never more than the whole interval
 
-  CHECK(limited(Real(0.5), 10, Real(0.7)) == Approx(0.07));
-  CHECK(limited(Real(0.5), -10, Real(0.7)) == Approx(0.07));
-  CHECK(limited(Real(0.5), 0, Real(0.7)) == Real(0.5));
-  CHECK(limited(Real(0.05), 10, Real(0.7)) == Real(0.05));
+  // The gradient's limit, and the width of a sphere.
+  Differentials<4> d;
+  d.append({}, {Real(0.1), 0, 0}, 10);
+  d.append({}, {Real(0.1), 0, 0}, -10);
+  d.append({}, {Real(0.1), 0, 0}, 0);
+  d.append({}, {0, 8, 0}, 0);
+  const Four half{Real(0.5), Real(0.5), Real(0.5), Real(0.5)};
+  const Four limited = d.deltas(0, half, Real(0.7));
+  CHECK(limited[0] == Approx(0.07));
+  CHECK(limited[1] == Approx(0.07));
+  CHECK(limited[2] == Real(0.5));
+  CHECK(limited[3] == Approx(0.125));
+  const Four small{Real(0.05), Real(0.05), Real(0.05), Real(0.05)};
+  CHECK(d.deltas(0, small, Real(0.7))[0] == Real(0.05));
+  CHECK(d.deltas(0, half, kInfinity)[0] == Real(0.5));
 }

@@ -39,7 +39,8 @@ class PathTracer {
   /// differentials on arrival at each vertex.
   std::vector<TracedVertex> trace(const PathNumbers& n, int vertices,
                                   const std::vector<TracedVertex>* base = nullptr,
-                                  std::vector<PathDifferentials>* carried = nullptr) const {
+                                  std::vector<PathDifferentials>* carried = nullptr,
+                                  std::vector<PathFootprint<16>>* footprints = nullptr) const {
     std::vector<TracedVertex> path;
     path.reserve(std::size_t(vertices));
     const CameraNumbers film{n.pairs[0], n.pairs[1], aspect_};
@@ -58,6 +59,7 @@ class PathTracer {
       v.x = scene_.view().shade(*hit, -ray.direction, {}, v.buffer);
       footprint.arrive(ray.direction, *hit, Real(1e9));
       if (carried) carried->push_back(footprint.differentials());
+      if (footprints) footprints->push_back(footprint);
       const ScatterNumbers numbers{n.lobes[std::size_t(k)], n.pairs[std::size_t(k + 2)]};
       const TracedVertex* twin = base ? &(*base)[std::size_t(k)] : nullptr;
       if (!scatter(v, numbers, twin)) break;

@@ -63,16 +63,9 @@ class PathFootprint {
   Footprint footprint() const noexcept {
     if (!settings_.isOn()) return {};
     const Frame f = Frame::around(normal_);
-    std::array<Vec2, Lanes> v;
-    const int k = vectors(f, v);
-    Region r;
-    if (settings_.shape == RegionShape::representative) {
-      r = representative({v.data(), std::size_t(k)});
-    } else {
-      Covariance m;
-      for (int j = 0; j < k; ++j) m.add(v[std::size_t(j)]);
-      r = ellipse(m);
-    }
+    const Vectors v = vectors(f);
+    const Region r =
+        settings_.shape == RegionShape::representative ? representative(v.all()) : ellipse(v.all());
     const auto world = [&](Vec2 p) { return p.x * f.s + p.y * f.t; };
     Footprint result{{world(r.a), world(r.b)}, {}};
     for (const int i : {0, 1})
@@ -81,11 +74,7 @@ class PathFootprint {
   }
 
   /// Exact area of the polygon that the differential vectors span (Minkowski sum) [MATH 2.1].
-  Real area() const noexcept {
-    std::array<Vec2, Lanes> v;
-    const int k = vectors(Frame::around(normal_), v);
-    return polygonArea({v.data(), std::size_t(k)});
-  }
+  Real area() const noexcept { return polygonArea(vectors(Frame::around(normal_)).all()); }
 
   /// Through a scattering drawn with these numbers at the surface arrived at. Where the path splits
   /// into strata x strata children, `strata` says so (1: not at all). Reduces first where there is
@@ -124,9 +113,7 @@ class PathFootprint {
   const PathCount& count() const noexcept { return count_; }
 
   /// delta_j: the bound, then the gradient's limit, then the width of a sphere.
-  Real delta(int j) const noexcept {
-    return deltaWithin(isFrozen() ? frozen_[j] : commonDelta(settings_.deltas, count_), j);
-  }
+  Real delta(int j) const noexcept { return deltas(j / 4)[j % 4]; }
 
   /// The steepest relative change of the contribution with any of the numbers.
   Real steepest() const noexcept {
@@ -141,25 +128,32 @@ class PathFootprint {
     return settings_.deltas.bound == Bound::local || settings_.deltas.bound == Bound::pixel;
   }
 
-  Real deltaWithin(Real bound, int j) const noexcept {
-    return std::min(limited(bound, differentials_.gradient(j), settings_.deltas.limit),
-                    differentials_.largestDelta(j));
+  Four deltas(int block) const noexcept {
+    const Real* own = frozen_ + 4 * block;
+    const Four bound = isFrozen() ? Four{own[0], own[1], own[2], own[3]}
+                                  : detail::four(commonDelta(settings_.deltas, count_));
+    return differentials_.deltas(block, bound, settings_.deltas.limit);
   }
 
   ScatterEvent event(const Surface& s, const Interaction& x, Vec3 leaving) const noexcept {
     return {x.frame, direction_, leaving, frameMotion(s, motion_, x.frame)};
   }
 
-  /// Differential vectors, delta multiplied in, in the plane of f. Returns how many.
-  int vectors(const Frame& f, std::array<Vec2, Lanes>& out) const noexcept {
-    const bool own = isFrozen();
-    const Real common = own ? 0 : commonDelta(settings_.deltas, count_);
-    for (int j = 0; j < differentials_.size(); ++j) {
-      const Real d = deltaWithin(own ? frozen_[j] : common, j);
-      const Vec3 v = differentials_.dVertex(j);
-      out[std::size_t(j)] = {d * dot(v, f.s), d * dot(v, f.t)};
+  /// Differential vectors, delta multiplied in, in the plane of a frame.
+  struct Vectors {
+    Vec2 list[Lanes];
+    int size;
+    std::span<const Vec2> all() const noexcept { return {list, std::size_t(size)}; }
+  };
+  Vectors vectors(const Frame& f) const noexcept {
+    Vectors r;
+    r.size = differentials_.size();
+    for (int b = 0; b < differentials_.blocks(); ++b) {
+      const auto v = differentials_.verticesAlong(b, f.s, f.t);
+      const Four delta = deltas(b), x = delta * v.x, y = delta * v.y;
+      for (int i = 0; i < 4; ++i) r.list[4 * b + i] = {x[i], y[i]};
     }
-    return differentials_.size();
+    return r;
   }
 
   /// Frozen deltas go into the columns, which then count whole; common ones stay outside.

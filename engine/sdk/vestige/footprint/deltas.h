@@ -28,8 +28,11 @@ struct DeltaPolicy {
   Real exponent = 0;  ///< replaces that of global (1/M) or safe (3/4); 0: as it is
 };
 
-/// Exponent of `safe`.
-inline constexpr Real kSafeExponent = Real(0.75);
+/// n^(-3/4), the exponent of `safe`, without a pow.
+inline Real safeDelta(Real n) noexcept {
+  const Real root = std::sqrt(n);
+  return 1 / (root * std::sqrt(root));
+}
 
 /// How many paths there are like this one, and how many numbers made it.
 class PathCount {
@@ -77,17 +80,11 @@ inline Real commonDelta(const DeltaPolicy& policy, const PathCount& count) noexc
       break;
     }
     case Bound::safe:
-      delta = std::pow(count.effectiveIndex(),
-                       -(policy.exponent > 0 ? policy.exponent : kSafeExponent));
+      delta = policy.exponent > 0 ? std::pow(count.effectiveIndex(), -policy.exponent)
+                                  : safeDelta(count.effectiveIndex());
       break;
   }
   return std::clamp(policy.scale * delta, Real(0), Real(1));
-}
-
-/// delta_j after the gradient's limit [PD01 Eq. 14]. A gradient of zero limits nothing.
-inline Real limited(Real delta, Real gradient, Real limit) noexcept {
-  const Real g = std::abs(gradient);
-  return delta * g > limit ? limit / g : delta;
 }
 
 }  // namespace vestige

@@ -4,7 +4,7 @@
 //
 // A *differential* is a change per unit of a random number; no delta is multiplied in, because some
 // deltas change at every vertex [MATH 0]. One of these rows a number, kept side by side, so that
-// one loop serves all of them.
+// four go through each step at once.
 //
 // [PD01]  Suykens, Willems. Path differentials and applications. EGWR 2001.
 // [Ige99] Igehy. Tracing ray differentials. SIGGRAPH 1999.
@@ -22,9 +22,10 @@ inline constexpr Real kLeastCosine = Real(1e-3);
 
 /// How the normal and uv move along with a point of a surface. Linear maps of dV.
 struct SurfaceMotion {
-  Vec3 normal;     ///< unit shading normal that faces the path, before any normal map
-  Mat3 dNormal{};  ///< [3 x 3], of that normal; per scene unit
-  Vec3 du, dv;     ///< gradients of u and v: d(uv) = (du . dV, dv . dV)
+  Vec3 normal;         ///< unit shading normal that faces the path, before any normal map
+  Mat3 dNormal{};      ///< [3 x 3], of that normal; per scene unit
+  Vec3 du, dv;         ///< gradients of u and v: d(uv) = (du . dV, dv . dV)
+  bool isFlat = true;  ///< neither normal nor tangents turn as one walks on it
 };
 
 /// [MATH 1.4]. For a path that arrives along `direction`: a normal that is turned to face it
@@ -40,14 +41,17 @@ inline SurfaceMotion surfaceMotion(const SurfacePoint& s, Vec3 direction) noexce
   if (!(det > Real(1e-10) * uu * vv)) return m;
   m.du = (vv * s.dPdu - uv * s.dPdv) / det;
   m.dv = (uu * s.dPdv - uv * s.dPdu) / det;
-  m.dNormal = facing * (outer(s.dNdu, m.du) + outer(s.dNdv, m.dv));
+  constexpr auto isZero = [](Vec3 a, Vec3 b) { return lengthSquared(a) + lengthSquared(b) == 0; };
+  m.isFlat = isZero(s.dNdu, s.dNdv) && isZero(s.dPduu, s.dPduv);
+  if (!m.isFlat) m.dNormal = facing * (outer(s.dNdu, m.du) + outer(s.dNdv, m.dv));
   return m;
 }
 
 /// How a shading frame moves along with a point of its surface. Linear maps of dV.
 struct FrameMotion {
-  Mat3 dNormal{};  ///< [3 x 3], of the frame's n
-  Vec3 twist;      ///< spin of s and t about n beyond the least turn, rad = twist . dV
+  Mat3 dNormal{};       ///< [3 x 3], of the frame's n
+  Vec3 twist;           ///< spin of s and t about n beyond the least turn, rad = twist . dV
+  bool isStill = true;  ///< both are zero
 };
 
 namespace detail {
@@ -68,7 +72,8 @@ inline Vec3 twistOf(const SurfacePoint& s, const SurfaceMotion& m, const Frame& 
 /// normal, n is carried along with the smooth frame: a map's own curvature is ignored [MATH 1.4].
 inline FrameMotion frameMotion(const SurfacePoint& s, const SurfaceMotion& m,
                                const Frame& f) noexcept {
-  FrameMotion r{m.dNormal, {}};
+  if (m.isFlat) return {};
+  FrameMotion r{m.dNormal, {}, false};
   if (lengthSquared(f.n - m.normal) > Real(1e-8)) {
     const Frame base = Frame::along(m.normal, s.dPdu);
     const Mat3 turn =
@@ -87,21 +92,76 @@ struct ScatterEvent {
   FrameMotion motion;
 };
 
+/// Four numbers side by side: one register.
+typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+
+namespace detail {
+
+/// Vectors of four differentials at once, and the little algebra that the chain rule needs.
+struct Four3 {
+  Four x, y, z;
+};
+inline Four four(Real v) noexcept { return Four{v, v, v, v}; }
+inline Four3 operator+(const Four3& a, const Four3& b) noexcept {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Four3 operator-(const Four3& a, const Four3& b) noexcept {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Four3 scaled(const Four& s, Vec3 v) noexcept { return {s * v.x, s * v.y, s * v.z}; }
+inline Four3 scaled(Real s, const Four3& v) noexcept { return {s * v.x, s * v.y, s * v.z}; }
+inline Four dot(Vec3 a, const Four3& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Four3 cross(Vec3 a, const Four3& b) noexcept {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Four3 cross(const Four3& a, Vec3 b) noexcept {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Four3 operator*(const Mat3& m, const Four3& v) noexcept {
+  return {m.c[0].x * v.x + m.c[1].x * v.y + m.c[2].x * v.z,
+          m.c[0].y * v.x + m.c[1].y * v.y + m.c[2].y * v.z,
+          m.c[0].z * v.x + m.c[1].z * v.y + m.c[2].z * v.z};
+}
+inline Four3 toLocal(const Frame& f, const Four3& v) noexcept {
+  return {dot(f.s, v), dot(f.t, v), dot(f.n, v)};
+}
+inline Four3 toWorld(const Frame& f, const Four3& v) noexcept { return Mat3{f.s, f.t, f.n} * v; }
+inline Four lengthSquared(const Four3& v) noexcept { return v.x * v.x + v.y * v.y + v.z * v.z; }
+
+}  // namespace detail
+
 /// K differentials of a path. Lanes is the most that fit; a multiple of 4.
 template <int Lanes>
 class Differentials {
  public:
   int size() const noexcept { return size_; }
-  Vec3 dVertex(int j) const noexcept { return {vx_[j], vy_[j], vz_[j]}; }     ///< dV/dx_j
-  Vec3 dDirection(int j) const noexcept { return {dx_[j], dy_[j], dz_[j]}; }  ///< dD/dx_j
-  Real gradient(int j) const noexcept { return g_[j]; }  ///< g_j = (dF/dx_j) / F [PD01 Eq. 12]
-  /// The most that delta_j may be: a differential vector longer than the sphere of directions is
-  /// wide means nothing [MATH 2.5].
-  Real largestDelta(int j) const noexcept { return 1 / std::sqrt(std::max(turn_[j], Real(1))); }
+  Vec3 dVertex(int j) const noexcept { return at(v_, j); }          ///< dV/dx_j
+  Vec3 dDirection(int j) const noexcept { return at(d_, j); }       ///< dD/dx_j
+  Real gradient(int j) const noexcept { return g_[j / 4][j % 4]; }  ///< g_j [PD01 Eq. 12]
+  /// dV of four numbers from 4 b on, as components along two directions.
+  struct FourVec2 {
+    Four x, y;
+  };
+  FourVec2 verticesAlong(int b, Vec3 s, Vec3 t) const noexcept {
+    return {detail::dot(s, v_[b]), detail::dot(t, v_[b])};
+  }
+  int blocks() const noexcept { return (size_ + 3) / 4; }
+  /// Of four numbers: the bound after the gradient's limit [PD01 Eq. 14] and the width of a sphere:
+  /// a differential vector longer than that means nothing [MATH 2.5]. A gradient of zero limits
+  /// nothing.
+  Four deltas(int b, Four bound, Real limit) const noexcept {
+    const Four steep = g_[b] < 0 ? -g_[b] : g_[b];
+    Four d = bound;
+    for (int i = 0; i < 4; ++i) {
+      if (d[i] * steep[i] > limit) d[i] = limit / steep[i];
+      if (d[i] * d[i] * turn_[b][i] > 1) d[i] = 1 / std::sqrt(turn_[b][i]);
+    }
+    return d;
+  }
 
   /// Starts with the numbers of a camera, or of a light's emission.
   void begin(const RayJacobian& ray, int variables) noexcept {
-    *this = {};
+    size_ = 0;
     for (int j = 0; j < variables; ++j)
       append(ray.dOrigin[std::size_t(j)], ray.dDirection[std::size_t(j)], 0);
   }
@@ -109,19 +169,15 @@ class Differentials {
   /// To the point where the ray meets a surface at distance t [Ige99 Eq. 10, 12; MATH 1.3].
   /// n is the geometric normal, either side. `limit`: no dV grows beyond it (the scene's size).
   void transfer(Vec3 direction, Real t, Vec3 n, Real limit) noexcept {
-    const Real c = dot(direction, n), clamped = std::copysign(std::max(std::abs(c), kGrazing), c);
-    const Vec3 k = n / clamped;
-    const Real most = limit * limit;
-    for (int j = 0; j < Lanes; ++j) {
-      const Real wx = vx_[j] + t * dx_[j], wy = vy_[j] + t * dy_[j], wz = vz_[j] + t * dz_[j];
-      const Real s = wx * k.x + wy * k.y + wz * k.z;
-      Real x = wx - s * direction.x, y = wy - s * direction.y, z = wz - s * direction.z;
+    using namespace detail;
+    const Real c = dot(direction, n), divisor = std::copysign(std::max(std::abs(c), kGrazing), c);
+    const Vec3 k = n / divisor;
+    for (int b = 0; b < blocks(); ++b) {
+      const Four3 w = v_[b] + scaled(t, d_[b]);
+      v_[b] = w - scaled(dot(k, w), direction);
       // A clamped divisor leaves a rest along n: take it out, dV lies in the surface.
-      const Real rest = x * n.x + y * n.y + z * n.z;
-      x -= rest * n.x, y -= rest * n.y, z -= rest * n.z;
-      const Real l = x * x + y * y + z * z;
-      const Real scale = l > most ? limit / std::sqrt(l) : Real(1);
-      vx_[j] = scale * x, vy_[j] = scale * y, vz_[j] = scale * z;
+      if (c != divisor) v_[b] = v_[b] - scaled(dot(n, v_[b]), n);
+      shorten(v_[b], limit);
     }
   }
 
@@ -129,21 +185,36 @@ class Differentials {
   /// specular, the two numbers of this event are appended [PD01 Eq. 4, 5; MATH 1.5 to 1.10].
   /// `jacobian` and `log` are the BRDF's, local; the cosine at the surface is accounted for here.
   /// Specular events leave g alone: their weight has no cosine, and chance follows Fresnel's term.
+  ///
+  /// The frame turns by omega = N x dN + tau N; seen from it the path arrives from
+  /// dp = F^T(-dD + omega x D), and leaves at dD' = omega x D' + F dPrev dp (DESIGN 3.2, MATH 1.7).
   void scatter(const ScatterEvent& e, const ScatterJacobian& jacobian, const LogGradient& log,
                bool specular) noexcept {
-    const Linear m = linearised(e, jacobian, log, specular);
-    const Mat3 vd = m.byNormal * e.motion.dNormal + outer(m.byTwist, e.motion.twist);
-    const Vec3 vg = transpose(e.motion.dNormal) * m.gByNormal + m.gByTwist * e.motion.twist;
-    for (int j = 0; j < Lanes; ++j) {
-      const Vec3 v{vx_[j], vy_[j], vz_[j]}, d{dx_[j], dy_[j], dz_[j]};
-      g_[j] += dot(m.gByDirection, d) + dot(vg, v);
-      Vec3 next = m.byDirection * d + vd * v;
-      next -= dot(next, e.leaving) * e.leaving;  // D' stays a unit vector
-      dx_[j] = next.x, dy_[j] = next.y, dz_[j] = next.z;
-      turn_[j] = std::max(turn_[j], next.x * next.x + next.y * next.y + next.z * next.z);
+    using namespace detail;
+    const Real cosine = 1 / clampedCosine(e);
+    for (int b = 0; b < blocks(); ++b) {
+      Four3 dN{}, omega{}, turned = scaled(Real(-1), d_[b]);
+      if (!e.motion.isStill) {
+        dN = e.motion.dNormal * v_[b];
+        omega = cross(e.frame.n, dN) + scaled(dot(e.motion.twist, v_[b]), e.frame.n);
+        turned = turned + cross(omega, e.arriving);
+      }
+      const Four3 dPrev = toLocal(e.frame, turned);
+      const Four3 dNext = jacobian.dPrev * dPrev;
+      Four3 d = toWorld(e.frame, dNext);
+      if (!e.motion.isStill) d = d + cross(omega, e.leaving);
+      d = d - scaled(dot(e.leaving, d), e.leaving);  // D' stays a unit vector
+      d_[b] = d;
+      const Four turn = lengthSquared(d);
+      turn_[b] = turn > turn_[b] ? turn : turn_[b];
+      if (specular) continue;
+      // d(log f) = gPrev . dp + gNext . F^T(dD' - omega x D'); the cosine: (dN . D' + N . dD') /
+      // cos.
+      g_[b] += dot(log.dPrev, dPrev) + dot(log.dNext, dNext) +
+               cosine * (dot(e.leaving, dN) + dot(e.frame.n, d));
     }
     if (specular) return;
-    const Vec3 gNext = e.frame.toWorld(log.dNext) + cosineByDirection(e);
+    const Vec3 gNext = e.frame.toWorld(log.dNext) + cosine * e.frame.n;
     for (const Vec3 column : jacobian.du.c) {
       Vec3 d = e.frame.toWorld(column);
       d -= dot(d, e.leaving) * e.leaving;
@@ -159,9 +230,9 @@ class Differentials {
     Differentials<Lanes + 4> all;
     for (int j = 0; j < size_; ++j) {
       const Vec3 v = dVertex(j), d = light.dFrom * v;
-      all.append(v, d, g_[j] + connectionGradient(e, log, j, d) + dot(lightLog.dFrom, v));
+      all.append(v, d, gradient(j) + connectionGradient(e, log, j, d) + dot(lightLog.dFrom, v));
     }
-    const Vec3 gNext = e.frame.toWorld(log.dNext) + cosineByDirection(e);
+    const Vec3 gNext = e.frame.toWorld(log.dNext) + e.frame.n / clampedCosine(e);
     all.append({}, light.du.c[0], dot(gNext, light.du.c[0]) + lightLog.du.x);
     all.append({}, light.du.c[1], dot(gNext, light.du.c[1]) + lightLog.du.y);
     return all;
@@ -170,16 +241,41 @@ class Differentials {
   /// One more number; ignored when all lanes are taken (reduce() before).
   void append(Vec3 dV, Vec3 dD, Real g) noexcept {
     if (size_ == Lanes) return;
+    if (size_ % 4 == 0) {  // a new block: its other lanes rest at zero
+      constexpr Four zero{};
+      v_[size_ / 4] = d_[size_ / 4] = {zero, zero, zero};
+      g_[size_ / 4] = turn_[size_ / 4] = zero;
+    }
     set(size_++, dV, dD, g);
   }
   void set(int j, Vec3 dV, Vec3 dD, Real g) noexcept {
-    vx_[j] = dV.x, vy_[j] = dV.y, vz_[j] = dV.z;
-    dx_[j] = dD.x, dy_[j] = dD.y, dz_[j] = dD.z;
-    g_[j] = g;
-    turn_[j] = lengthSquared(dD);
+    const int b = j / 4, i = j % 4;
+    v_[b].x[i] = dV.x, v_[b].y[i] = dV.y, v_[b].z[i] = dV.z;
+    d_[b].x[i] = dD.x, d_[b].y[i] = dD.y, d_[b].z[i] = dD.z;
+    g_[b][i] = g, turn_[b][i] = lengthSquared(dD);
   }
+  void clear() noexcept { size_ = 0; }
 
  private:
+  static Vec3 at(const detail::Four3* list, int j) noexcept {
+    const detail::Four3& f = list[j / 4];
+    return {f.x[j % 4], f.y[j % 4], f.z[j % 4]};
+  }
+
+  static void shorten(detail::Four3& v, Real limit) noexcept {
+    const Four l = detail::lengthSquared(v);
+    for (int i = 0; i < 4; ++i) {
+      if (!(l[i] > limit * limit)) continue;
+      const Real k = limit / std::sqrt(l[i]);
+      v.x[i] *= k, v.y[i] *= k, v.z[i] *= k;
+    }
+  }
+
+  static Real clampedCosine(const ScatterEvent& e) noexcept {
+    const Real c = dot(e.frame.n, e.leaving);
+    return std::copysign(std::max(std::abs(c), kLeastCosine), c);
+  }
+
   /// d log(f cos) by number j for a direction that moves by dNext whatever the frame does.
   Real connectionGradient(const ScatterEvent& e, const LogGradient& log, int j,
                           Vec3 dNext) const noexcept {
@@ -192,49 +288,9 @@ class Differentials {
            (dot(dN, e.leaving) + dot(e.frame.n, dNext)) / clampedCosine(e);
   }
 
-  /// dD' = byDirection dD + byNormal dN + byTwist tau, and the same for d(log f cos).
-  struct Linear {
-    Mat3 byDirection, byNormal;
-    Vec3 byTwist, gByDirection, gByNormal;
-    Real gByTwist = 0;
-  };
-
-  /// The frame turns by omega = N x dN + tau N; seen from it the path arrives from
-  /// dp = F^T(-dD + omega x D), and leaves at dD' = omega x D' + F dPrev dp (DESIGN 3.2, MATH 1.7).
-  static Linear linearised(const ScatterEvent& e, const ScatterJacobian& jacobian,
-                           const LogGradient& log, bool specular) noexcept {
-    const Vec3 n = e.frame.n, d = e.arriving, out = e.leaving;
-    const Mat3 f{e.frame.s, e.frame.t, n};
-    const Mat3 r = f * jacobian.dPrev * transpose(f);
-    const Mat3 turnIn = dot(n, d) * identity() - outer(n, d);  // dN -> omega x D
-    const Mat3 turnOut = dot(n, out) * identity() - outer(n, out);
-    Linear m;
-    m.byDirection = Real(-1) * r;
-    m.byNormal = turnOut + r * turnIn;
-    m.byTwist = cross(n, out) + r * cross(n, d);
-    if (specular) return m;
-    // d(log f) = gPrev . dp + gNext . F^T(dD' - omega x D'); the cosine: (dN . D' + N . dD') / cos.
-    const Vec3 prev = f * log.dPrev, next = f * log.dNext, cosine = cosineByDirection(e);
-    const Vec3 byLeaving = next + cosine;
-    m.gByDirection = transpose(m.byDirection) * byLeaving - prev;
-    m.gByNormal = transpose(m.byNormal) * byLeaving + transpose(turnIn) * prev -
-                  transpose(turnOut) * next + out / clampedCosine(e);
-    m.gByTwist = dot(byLeaving, m.byTwist) + dot(prev, cross(n, d)) - dot(next, cross(n, out));
-    return m;
-  }
-
-  static Real clampedCosine(const ScatterEvent& e) noexcept {
-    const Real c = dot(e.frame.n, e.leaving);
-    return std::copysign(std::max(std::abs(c), kLeastCosine), c);
-  }
-  static Vec3 cosineByDirection(const ScatterEvent& e) noexcept {
-    return e.frame.n / clampedCosine(e);
-  }
-
-  alignas(16) Real vx_[Lanes] = {}, vy_[Lanes] = {}, vz_[Lanes] = {};
-  Real dx_[Lanes] = {}, dy_[Lanes] = {}, dz_[Lanes] = {};
-  Real g_[Lanes] = {};
-  Real turn_[Lanes] = {};  ///< longest |dD|^2 so far
+  detail::Four3 v_[Lanes / 4], d_[Lanes / 4];
+  Four g_[Lanes / 4];
+  Four turn_[Lanes / 4];  ///< longest |dD|^2 so far
   int size_ = 0;
 };
 

@@ -36,6 +36,13 @@ inline Region ellipse(const Covariance& m) noexcept {
   return {std::sqrt(major) * e, std::sqrt(minor) * Vec2{-e.y, e.x}};
 }
 
+/// The ellipse of differential vectors.
+inline Region ellipse(std::span<const Vec2> v) noexcept {
+  Covariance m;
+  for (const Vec2 x : v) m.add(x);
+  return ellipse(m);
+}
+
 /// Exact area of the Minkowski sum of the vectors: a polygon of 2 K corners [MATH 2.1].
 inline Real polygonArea(std::span<const Vec2> v) noexcept {
   Real area = 0;

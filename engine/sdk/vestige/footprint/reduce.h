@@ -57,7 +57,7 @@ void reduce(Differentials<Lanes>& d, Vec3 n, Vec3 direction, const Real* weights
     for (int i = 0; i < kState; ++i)
       for (int k = 0; k < kState; ++k) s[i][k] += rows[j][i] / unit[i] * (rows[j][k] / unit[k]);
   const int rank = factor(s, gradient ? kState : kState - 1, l);
-  d = {};
+  d.clear();
   for (int j = 0; j < rank; ++j) {
     Real c[kState];
     for (int i = 0; i < kState; ++i) c[i] = l[j][i] * unit[i];

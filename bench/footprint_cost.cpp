@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Nanoseconds a vertex that carrying differentials adds: arrive, footprint and scatter, without the
+// ray and the shading that they serve. CPU time of one thread.
+//
+//     footprint_cost [PLUGIN_FOLDER]
+#include <vestige/footprint.h>
+
+#include <time.h>
+
+#include <cstdio>
+#include <vector>
+
+#include "engine/scene/registry.h"
+
+using namespace vestige;
+
+namespace {
+
+/// A surface and what a path does there, all but the differentials worked out before the clock
+/// runs.
+struct Event {
+  Surface surface;
+  Interaction x;
+  Scatter drawn;
+  ScatterNumbers numbers;
+  Vec3 arriving;
+};
+
+Event makeEvent(const Brdf& brdf, const InputBuffer& inputs, std::uint32_t seed) {
+  for (std::uint32_t i = 0;; ++i) {
+    const Sampler s(seed, i, 0, 1);
+    Event e;
+    const Vec2 where = s.pair(0);
+    e.surface.geometricNormal = e.surface.normal = {0, 0, 1};
+    e.surface.position = {where.x, where.y, 0}, e.surface.distance = 1 + where.x;
+    e.surface.dPdu = {1, 0, 0}, e.surface.dPdv = {0, 1, 0};
+    e.surface.dNdu = {Real(0.3), 0, 0}, e.surface.dNdv = {0, Real(0.2), 0};  // a curved one
+    const Vec2 u = s.pair(2);
+    e.arriving = normalize(Vec3{u.x - Real(0.5), u.y - Real(0.5), -1});
+    e.x.brdf = &brdf, e.x.toPrev = -e.arriving;
+    e.x.frame = Frame::along({0, 0, 1}, e.surface.dPdu), e.x.geometricNormal = {0, 0, 1};
+    e.x.point = {e.x.frame.toLocal(e.x.toPrev), false, Inputs(inputs.data())};
+    e.numbers = {s.number(4), s.pair(5)};
+    if (const auto drawn = drawScatter(e.x, e.numbers)) {
+      e.drawn = *drawn;
+      return e;
+    }
+  }
+}
+
+double cpuNanoseconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * double(t.tv_sec) + double(t.tv_nsec);
+}
+
+/// Time of paths of `depth` vertices, the event's own differentials included or not.
+double nanosecondsAVertex(const std::vector<Event>& events, int depth, double& sink) {
+  constexpr int kPaths = 20000;
+  RayJacobian camera;
+  camera.dDirection[0] = {Real(0.001), 0, 0}, camera.dDirection[1] = {0, Real(0.001), 0};
+  const double start = cpuNanoseconds();
+  for (int p = 0; p < kPaths; ++p) {
+    PathFootprint<> f;
+    f.begin(camera, 2, std::uint64_t(p), 16, {});
+    for (int k = 0; k < depth; ++k) {
+      const Event& e = events[std::size_t(p * 7 + k) % events.size()];
+      f.arrive(e.arriving, e.surface, 10);
+      sink += double(f.footprint().dUv[0].x);
+      if (k + 1 < depth) f.scatter(e.surface, e.x, e.drawn, e.numbers), f.chance(Real(0.9));
+    }
+  }
+  return (cpuNanoseconds() - start) / kPaths / depth;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> refused;
+  const Registry registry = Registry::load({argc > 1 ? argv[1] : installedPluginFolder()}, refused);
+  double sink = 0;
+  std::printf("nanoseconds a vertex      2 scatters   8 scatters, reduced\n");
+  struct NoHost final : Host {
+    std::string find(const std::string&, Span, std::string&) override { return {}; }
+    std::shared_ptr<const Texture> texture(const TextureRequest&, std::string&) override {
+      return nullptr;
+    }
+    void warn(Span, const std::string&) override {}
+  } host;
+  for (const char* name :
+       {"lambert", "phong", "rough_conductor", "rough_dielectric", "principled"}) {
+    const Schema* schema = registry.schema("brdf", name);
+    if (!schema) return std::fprintf(stderr, "no brdf %s\n", name), 3;
+    std::vector<Value> values;
+    for (const Parameter& row : schema->params) values.push_back(row.initial);
+    VestigeError why{"", -1};
+    const auto brdf = registry.create<Brdf>("brdf", name, Values(values, {}), host, why);
+    InputBuffer inputs{};
+    for (std::size_t i = 0; i < schema->inputs.size(); ++i)
+      for (int c = 0; c < 4; ++c) inputs[i].v[c] = Real(schema->inputs[i].initial.v[c]);
+    for (InputValue& v : inputs)
+      if (v.v[0] == 0 && v.v[1] == 0)
+        v = {{Real(0.5), Real(0.5), Real(0.5), 1}};  // no lobe, no path
+    std::vector<Event> events;
+    for (std::uint32_t i = 0; i < 256; ++i) events.push_back(makeEvent(*brdf, inputs, i));
+    double two = 1e9, eight = 1e9;  // the best of some: what disturbs only ever adds
+    for (int i = 0; i < 5; ++i) {
+      two = std::min(two, nanosecondsAVertex(events, 3, sink));
+      eight = std::min(eight, nanosecondsAVertex(events, 9, sink));
+    }
+    std::printf("%-24s %8.0f %12.0f\n", name, two, eight);
+  }
+  return sink == 1 ? 1 : 0;
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "run.h"
+#include "support/catch.h"
+
+using namespace vestige::test;
+
+namespace {
+
+/// A camera straight above a plane, 64 pixels wide: one pixel is 4 units / 64 across.
+const char* const kPlane = R"(
+camera pinhole { location <0, 2, 0> look_at <0, 0, 0> angle 90 up z }
+film { resolution <64, 64> }
+integrator path { samples 4 depth 3 }
+light distant { direction <0, -1, 0> irradiance rgb 1 }
+plane { y, 0 brdf lambert { diffuse pigment checker { rgb 0.2, rgb 0.8 } } }
+)";
+
+}  // namespace
+
+TEST_CASE("inspect tells what a path hit and how large it is there", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", kPlane);
+  const Run text = vestige({"inspect", scene, "31", "40"});
+  INFO(text.err);
+  CHECK(text.exit == 0);
+  CHECK_THAT(text.out, containsText("plane with brdf lambert") && containsText("a.scene:6") &&
+                           containsText("film x") && containsText("N_eff") &&
+                           containsText("exact area"));
+
+  const Run json = vestige({"inspect", scene, "31", "40", "--json"});
+  REQUIRE(json.exit == 0);
+  const auto j = nlohmann::json::parse(json.out);
+  const auto& first = j["vertices"][0];
+  CHECK(first["shape"] == "plane");
+  CHECK(first["variables"] == 2);
+  REQUIRE(first["differentials"].size() == 2);
+  // Seen head-on from 2 units with 90 degrees a pixel is a square of 4 / 64.
+  CHECK(first["footprint"]["size"].get<double>() == Approx(4.0 / 64).epsilon(1e-3));
+  CHECK(first["footprint"]["exact_area"].get<double>() == Approx(16.0 / 4096).epsilon(1e-3));
+}
+
+TEST_CASE("inspect: later samples stand for less, bounds can be chosen", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", kPlane);
+  const auto size = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"inspect", scene, "10", "10", "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Run r = vestige(words);
+    INFO(r.err);
+    REQUIRE(r.exit == 0);
+    return nlohmann::json::parse(r.out)["vertices"][0]["footprint"]["size"].get<double>();
+  };
+  CHECK(size({"--sample", "15"}) == Approx(4.0 / 64 * std::pow(16, -0.75)).epsilon(1e-3));
+  CHECK(size({"--footprint", "local", "--spp", "16"}) == Approx(4.0 / 64 / 4).epsilon(1e-3));
+  CHECK(size({"--footprint", "global", "--spp", "16"}) == Approx(4.0 / 64 / 4).epsilon(1e-3));
+  CHECK(size({"--footprint", "pixel", "--spp", "1"}) == Approx(4.0 / 64).epsilon(1e-3));
+}
+
+TEST_CASE("inspect refuses what it cannot answer", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", kPlane);
+  const Run outside = vestige({"inspect", scene, "64", "0"});
+  CHECK(outside.exit == 2);
+  CHECK_THAT(outside.err, containsText("64 x 64"));
+  const Run bound = vestige({"inspect", scene, "1", "1", "--footprint", "locl"});
+  CHECK(bound.exit == 2);
+  CHECK_THAT(bound.err, containsText("did you mean 'local'?"));
+  const Run none = vestige({"inspect", scene, "1", "1", "--footprint", "none"});
+  CHECK(none.exit == 0);
+  CHECK_THAT(none.out, containsText("carries no differentials"));
+}
+
+TEST_CASE("a footprint block is checked like any other", "[app]") {
+  const Folder folder;
+  const auto check = [&](const std::string& block) {
+    std::string text = kPlane;
+    text.replace(text.find("depth 3"), 7, "depth 3 " + block);
+    return vestige({"check", folder.write("b.scene", text)});
+  };
+  CHECK(check("footprint safe").exit == 0);
+  CHECK(check("footprint gradient { limit 0.5 scale 2 }").exit == 0);
+  const Run unknown = check("footprint safest");
+  CHECK(unknown.exit == 1);
+  CHECK_THAT(unknown.err, containsText("safe"));
+  const Run wrong = check("footprint local { limit -1 }");
+  CHECK(wrong.exit == 1);
+  CHECK_THAT(wrong.err, containsText("limit") && containsText("b.scene:4"));
+}
