@@ -93,7 +93,7 @@ TEST_CASE("the ellipse has the vectors' covariance", "[footprint]") {
     CHECK(dot(e.a, e.b) == Approx(0).margin(1e-5));
     CHECK(dot(e.a, e.a) >= dot(e.b, e.b));
   }
-  CHECK(dot(ellipse({}).a, ellipse({}).a) == 0);
+  CHECK(dot(ellipse(Covariance{}).a, ellipse(Covariance{}).a) == 0);
 }
 
 TEST_CASE("bounds clamp half-axes and leave what lies between alone", "[footprint]") {
