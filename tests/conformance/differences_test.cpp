@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a BRDF without derivatives of its own gets from the SDK: finite differences, held against
+// the derivatives that the built-in plugins write by hand. Those are proved in
+// brdf_derivatives_test.cpp, by other differences than these.
+#include <vestige/dual_brdf.h>
+#include <vestige/plugin.h>
+
+#include "support/brdf_events.h"
+
+using namespace vestige;
+using namespace vestige::test;
+
+namespace {
+
+constexpr double kTolerance = kDouble ? 1e-5 : 1e-2;
+
+/// Another BRDF, its derivatives taken away.
+class Bare : public Brdf {
+ public:
+  explicit Bare(const Brdf& full) : full_(full) {}
+  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    return full_.eval(p, toNext);
+  }
+  std::optional<ScatterSample> sample(const ScatterPoint& p,
+                                      ScatterNumbers n) const noexcept override {
+    return full_.sample(p, n);
+  }
+  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    return full_.pdf(p, toNext);
+  }
+
+ private:
+  const Brdf& full_;
+};
+
+struct Half : Bare {
+  using Bare::Bare;
+  LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+};
+
+class Hidden : public Bare {
+  using Bare::Bare;
+  ScatterJacobian sampleDerivatives(const ScatterPoint&, ScatterNumbers) const noexcept override {
+    return {};
+  }
+  LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+};
+
+struct ByDuals : DualBrdf<ByDuals> {};
+
+/// How many of the events seen are off by more than allowed, and the last of them.
+struct Share {
+  int seen = 0, off = 0;
+  std::string event;
+  template <class Describe>
+  void see(double e, const Describe& describe) {
+    ++seen;
+    if (e <= 1) return;
+    ++off, event = describe();
+  }
+  void check(double most) const {
+    INFO(off << " of " << seen << " events, one is\n  " << event);
+    CHECK(seen > 1000);
+    CHECK(off <= most * seen);
+  }
+};
+
+/// Relative to the size of what is expected, at least `size`, and to what rounding of values of
+/// size 1 leaves of a difference.
+double error(Vec3 found, Vec3 expected, double size = 1) {
+  const double rounding = 8 * kEpsilon / double(differences::kStep);
+  const double allowed = kTolerance * std::max(size, sizeOf(expected)) + rounding;
+  const double e = sizeOf(found - expected) / allowed;
+  return std::isnan(e) ? HUGE_VAL : e;
+}
+
+/// What of v is no turn about the lobe's axis: differences leave such a turn out, and a lobe that
+/// is not built in a frame has one.
+Vec3 withoutSpin(const Brdf& brdf, const ScatterPoint& p, ScatterNumbers n, Vec3 toNext, Vec3 v) {
+  const auto frame = lobeFrame(brdf, p, n.lobe);
+  if (!frame) return v;
+  const Vec3 spin = normalize(cross(frame->n, toNext));
+  return v - dot(spin, v) * spin;
+}
+
+bool isBuiltInAFrame(const BrdfCase& c) { return c.plugin == "phong" || c.plugin == "lambert"; }
+
+}  // namespace
+
+TEST_CASE("differences of sample() are the derivatives by hand", "[brdf][differences]") {
+  std::map<std::string, std::array<Share, 2>> plugins;
+  forEvents(brdfCases(), 300, [&](const BrdfCase& c, auto& p, ScatterNumbers n, Random& r) {
+    const auto s = c.brdf->sample(p, n);
+    if (!s) return;
+    const ScatterJacobian found = Bare(*c.brdf).sampleDerivatives(p, n);
+    const ScatterJacobian expected = c.brdf->sampleDerivatives(p, n);
+    auto& [byNumbers, byPrev] = plugins[c.plugin];
+    const double size = std::max(sizeOf(expected.du.c[0]), sizeOf(expected.du.c[1]));
+    for (const int k : {0, 1})
+      byNumbers.see(error(found.du.c[k], expected.du.c[k], size), [&] {
+        return eventLine(c, p, n, told("du", sizeOf(found.du.c[k]), sizeOf(expected.du.c[k])));
+      });
+    const Vec3 along = tangent(p.toPrev, 2 * double(kPi * r.number()));
+    Vec3 a = found.dPrev * along, b = expected.dPrev * along;
+    if (!isBuiltInAFrame(c) && !s->specular)
+      a = withoutSpin(*c.brdf, p, n, s->toNext, a), b = withoutSpin(*c.brdf, p, n, s->toNext, b);
+    byPrev.see(error(a, b), [&] {
+      std::ostringstream text;
+      text << "dPrev " << along << " gives " << a << ", expected " << b;
+      return eventLine(c, p, n, text.str());
+    });
+  });
+  for (const auto& [plugin, shares] : plugins) {
+    INFO(plugin);
+    shares[0].check(0.02);
+    shares[1].check(0.02);
+  }
+}
+
+TEST_CASE("differences of log f are the gradients by hand", "[brdf][differences]") {
+  std::map<std::string, Share> plugins;
+  forEvents(brdfCases(), 300, [&](const BrdfCase& c, auto& p, ScatterNumbers n, Random& r) {
+    Vec3 toNext = anywhere(r);
+    if (r.number() < Real(0.5))
+      if (const auto s = c.brdf->sample(p, n)) toNext = s->toNext;
+    const LogGradient found = Bare(*c.brdf).logGradient(p, toNext);
+    if (!(luminance(c.brdf->eval(p, toNext)) > Real(1e-30))) return;
+    const LogGradient expected = c.brdf->logGradient(p, toNext);
+    const auto see = [&](Vec3 unit, Vec3 a, Vec3 b) {
+      b -= dot(unit, b) * unit;  // by hand, a gradient may have a part that no tangent sees
+      const double scale = std::max(1 / double(std::abs(unit.z)), 10.0);
+      plugins[c.plugin].see(error(a, b, scale), [&] {
+        std::ostringstream text;
+        text << "slope " << a << ", expected " << b << ", toNext " << toNext;
+        return eventLine(c, p, n, text.str());
+      });
+    };
+    see(p.toPrev, found.dPrev, expected.dPrev);
+    see(toNext, found.dNext, expected.dNext);
+  });
+  for (const auto& [plugin, share] : plugins) {
+    INFO(plugin);
+    if (plugin == "mirror" || plugin == "glass") continue;  // f is zero
+    share.check(kDouble ? 0.03 : 0.06);  // a float has lobes that it can hardly tell from a mirror
+  }
+}
+
+TEST_CASE("differences are finite at the ends of everything", "[brdf][differences][fuzz]") {
+  Random r(31);
+  const Real ends[] = {0, Real(0.5), Real(1e-7), Real(0.25), kOneMinusEpsilon};
+  for (const BrdfCase& c : brdfCases(2)) {
+    int broken = 0;
+    for (int i = 0; i < 150; ++i) {
+      const Real z = i % 5 == 0 ? 1 : std::pow(Real(10), Real(-30) * sqr(r.number()));
+      const ScatterPoint p = c.at(i % 10 == 0 ? Vec3{0, 0, 1} : atHeight(z, r), i % 2 == 1);
+      const ScatterNumbers n = {r.number(), {ends[i % 5], ends[i / 5 % 5]}};
+      const ScatterJacobian j = Bare(*c.brdf).sampleDerivatives(p, n);
+      for (const Vec3 v : {j.du.c[0], j.du.c[1], j.dPrev.c[0], j.dPrev.c[1], j.dPrev.c[2]})
+        broken += !isFinite(v);
+      const auto s = c.brdf->sample(p, n);
+      if (s && s->specular) broken += !(j.du.c[0] == Vec3{} && j.du.c[1] == Vec3{});
+      if (!s) broken += !(j.du.c[0] == Vec3{} && j.dPrev.c[0] == Vec3{});
+      const LogGradient g = Bare(*c.brdf).logGradient(p, s ? s->toNext : anywhere(r));
+      broken += !isFinite(g.dPrev) || !isFinite(g.dNext);
+    }
+    INFO(c.title());
+    CHECK(broken == 0);
+  }
+}
+
+TEST_CASE("a plugin tells which derivatives it leaves to differences", "[brdf][differences]") {
+  CHECK(detail::lacks<Brdf, Bare>() == (kLacksSampleDerivatives | kLacksLogGradient));
+  CHECK(detail::lacks<Brdf, Half>() == kLacksSampleDerivatives);
+  CHECK(detail::lacks<Brdf, Hidden>() == 0);
+  CHECK(detail::lacks<Brdf, ByDuals>() == 0);
+  for (const LoadedPlugin& plugin : allPlugins()) {
+    INFO(plugin.file);
+    CHECK(plugin.entry->lacks == 0);  // all that we ship have theirs by hand
+  }
+}
