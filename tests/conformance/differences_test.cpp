@@ -83,6 +83,39 @@ Vec3 withoutSpin(const Brdf& brdf, const ScatterPoint& p, ScatterNumbers n, Vec3
   return v - dot(spin, v) * spin;
 }
 
+/// A map with all that differences have to go round: it bends at u.x = 0.3, absorbs from u.x = 0.9
+/// on, is another lobe from u.y = 0.6 on, and says nonsense outside of the unit square.
+class Seams : public Brdf {
+ public:
+  Rgb eval(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+  Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 0; }
+  std::optional<ScatterSample> sample(const ScatterPoint&,
+                                      ScatterNumbers n) const noexcept override {
+    if (n.u.x >= Real(0.9) && n.u.x < 1) return std::nullopt;
+    const bool outside = n.u.x < 0 || n.u.x >= 1 || n.u.y < 0 || n.u.y >= 1;
+    return ScatterSample{.toNext = outside ? Vec3{0, 0, 1} : normalize(way(n.u)),
+                         .weight = {},
+                         .pdf = 1,
+                         .lobePdf = 1,
+                         .lobeChance = 1,
+                         .lobe = n.u.y < Real(0.6) ? 0 : 1,
+                         .specular = false};
+  }
+  /// By one of the two numbers, by hand.
+  static Vec3 slope(Vec2 u, int k) {
+    const Vec3 w = way(u), n = normalize(w);
+    const Vec3 d = k == 0 ? Vec3{u.x < Real(0.3) ? Real(1) : Real(3), 0, 0} : Vec3{0, high(u), 0};
+    return (d - dot(n, d) * n) / length(w);
+  }
+
+ private:
+  static Real high(Vec2 u) { return u.y < Real(0.6) ? Real(1) : Real(2); }
+  static Vec3 way(Vec2 u) {
+    const Real x = u.x < Real(0.3) ? u.x : Real(0.3) + 3 * (u.x - Real(0.3));
+    return {x, high(u) * u.y, 1};
+  }
+};
+
 bool isBuiltInAFrame(const BrdfCase& c) { return c.plugin == "phong" || c.plugin == "lambert"; }
 
 }  // namespace
@@ -115,6 +148,29 @@ TEST_CASE("differences of sample() are the derivatives by hand", "[brdf][differe
     shares[0].check(0.02);
     shares[1].check(0.02);
   }
+}
+
+TEST_CASE("differences go round seams, borders and other lobes", "[brdf][differences]") {
+  const Seams brdf;
+  const Real h = differences::kStep;
+  int tried = 0;
+  for (const Real seam : {Real(0), Real(0.3), Real(0.6), Real(0.9), Real(1)})
+    for (const Real away :
+         {-3 * h, -h, Real(-0.3) * h, Real(-0.02) * h, Real(0.02) * h, h / 2, 2 * h})
+      for (const int k : {0, 1}) {
+        const Real x = seam + away;
+        const Vec2 u = k == 0 ? Vec2{x, Real(0.45)} : Vec2{Real(0.15), x};
+        const ScatterPoint p{{0, 0, 1}, false, {}};
+        if (!(x >= 0 && x < 1) || !brdf.sample(p, {0, u})) continue;
+        const Vec3 found = brdf.sampleDerivatives(p, {0, u}).du.c[k], expected = Seams::slope(u, k);
+        std::ostringstream text;
+        text << "u " << u.x << ", " << u.y << ", by number " << k << ": " << found << ", expected "
+             << expected;
+        INFO(text.str());
+        CHECK(error(found, expected) <= 1);
+        ++tried;
+      }
+  CHECK(tried > 40);
 }
 
 TEST_CASE("differences of log f are the gradients by hand", "[brdf][differences]") {

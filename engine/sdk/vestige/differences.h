@@ -29,27 +29,30 @@ struct Slope {
 };
 
 /// With one step. `map` takes a Real to an optional Value (nullopt: the map has no value there, or
-/// another branch of it); `here` is map(0). Two orders of one stencil tell the error of the lower:
-/// across a seam, where they disagree, the side without the seam wins.
+/// another branch of it); `here` is map(0). Two orders of one stencil tell the error of the lower;
+/// at a seam, where those or the slopes of both sides disagree, the side without the seam wins.
 template <class Map, class Value>
 Slope<Value> slopeWithStep(const Map& map, Value here, Real h) noexcept {
   Slope<Value> best;
   const auto back2 = map(-2 * h), back = map(-h), next = map(h), next2 = map(2 * h);
+  const auto quadratic = [&](const Value& a, const Value& b, Real step) {
+    return (Real(4) * a - Real(3) * here - b) * (1 / (2 * step));
+  };
   if (back2 && back && next && next2) {
     const Value near = (*next - *back) * (1 / (2 * h)), far = (*next2 - *back2) * (1 / (4 * h));
     // The far slope errs four times as much as the near one, the same way.
     const Value central = (Real(4) * near - far) * (Real(1) / 3);
-    best.keepBetter(central, magnitude(central - near));
+    const Value kink = quadratic(*next, *next2, h) - quadratic(*back, *back2, -h);
+    best.keepBetter(central, std::max(magnitude(central - near), magnitude(kink)));
     if (best.error <= kGoodEnough * magnitude(central)) return best;
   }
   const auto oneSided = [&](const auto& a, const auto& b, Real step) {
     if (!a || !b) return;
     const auto c = map(3 * step);
     if (!c) return;
-    const Value low = (Real(4) * *a - Real(3) * here - *b) * (1 / (2 * step));
-    const Value high =
+    const Value cubic =
         (Real(18) * *a - Real(11) * here - Real(9) * *b + Real(2) * *c) * (1 / (6 * step));
-    best.keepBetter(high, magnitude(high - low));
+    best.keepBetter(cubic, magnitude(cubic - quadratic(*a, *b, step)));
   };
   oneSided(next, next2, h), oneSided(back, back2, -h);
   return best;
