@@ -179,6 +179,17 @@ TEST_CASE("differences go round seams, borders and other lobes", "[brdf][differe
   CHECK(tried > 50);
 }
 
+TEST_CASE("differences of a bend are the slope of one side", "[differences]") {
+  const auto slope = [](Real at) {
+    const auto bent = [&](Real x) -> std::optional<Real> { return x < at ? x : at + 3 * (x - at); };
+    return double(differences::derivative(bent, *bent(0), differences::kStep));
+  };
+  const double middle = slope(0);
+  CHECK(std::min(std::abs(middle - 1), std::abs(middle - 3)) < 1e-3);
+  CHECK(slope(differences::kStep / 50) == Approx(1).epsilon(1e-3));
+  CHECK(slope(-differences::kStep / 50) == Approx(3).epsilon(1e-3));
+}
+
 TEST_CASE("differences keep toPrev above the horizon", "[brdf][differences]") {
   const Seams brdf;
   Random r(32);
