@@ -46,7 +46,17 @@ class Hidden : public Bare {
   LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
 };
 
-struct ByDuals : DualBrdf<ByDuals> {};
+struct ByDuals : DualBrdf<ByDuals> {
+  template <class T>
+  TVec3<T> direction(const ScatterPoint&, const TVec3<T>& toPrev, Real,
+                     const TVec2<T>&) const noexcept {
+    return toPrev;
+  }
+  template <class T>
+  T logValue(const ScatterPoint&, const TVec3<T>&, const TVec3<T>&) const noexcept {
+    return {};
+  }
+};
 
 /// How many of the events seen are off by more than allowed, and the last of them.
 struct Share {
