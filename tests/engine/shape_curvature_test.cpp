@@ -14,7 +14,7 @@ using namespace vestige::test;
 namespace {
 
 constexpr bool kDouble = sizeof(Real) == 8;
-constexpr Real kStep = kDouble ? Real(2e-3) : Real(1e-2);
+constexpr Real kStep = kDouble ? Real(5e-4) : Real(1e-2);
 /// Relative to the size of the surface and its derivatives, below 100 scene units in all cases.
 constexpr double kTolerance = kDouble ? 1e-7 : 1e-3;
 
