@@ -66,6 +66,16 @@ fs::path programFolder() {
 
 }  // namespace
 
+std::string noteOnDifferences(const Plugin& plugin) {
+  const bool sampled = plugin.entry->lacks & kLacksSampleDerivatives;
+  const bool gradient = plugin.entry->lacks & kLacksLogGradient;
+  const char* missing = !gradient  ? "no derivatives of its sampled directions"
+                        : !sampled ? "no gradient of its value"
+                                   : "no derivatives of its own";
+  return fmt::format("{} '{}' gives {}: finite differences stand in, slower and less exact",
+                     plugin.kind, plugin.name, missing);
+}
+
 Registry Registry::load(const std::vector<std::string>& folders,
                         std::vector<std::string>& refused) {
   Registry r;

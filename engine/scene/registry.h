@@ -18,6 +18,9 @@ struct Plugin {
   const Schema* schema;  ///< as the plugin wrote it
 };
 
+/// For the user: that derivatives of this plugin are taken by finite differences, and which.
+std::string noteOnDifferences(const Plugin& plugin);
+
 class Registry {
  public:
   /// Loads every library of these folders, in order; a later one of the same kind and name replaces
@@ -35,13 +38,14 @@ class Registry {
   const Schema* schema(const std::string& kind, const std::string& name) const noexcept;
 
   /// Creates an object of plugin `kind name`; null with `error` filled. Interface must be the
-  /// kind's.
+  /// kind's. The host is told a note where the plugin leaves derivatives to differences.
   template <class Interface>
   std::shared_ptr<Interface> create(const std::string& kind, const std::string& name,
                                     const Values& values, Host& host, VestigeError& error) const {
     const Plugin* plugin = find(kind, name);
     void* made = plugin ? plugin->entry->create(&values, &host, &error) : nullptr;
     if (!made) return nullptr;
+    if (plugin->entry->lacks) host.note(noteOnDifferences(*plugin));
     return std::shared_ptr<Interface>(static_cast<Interface*>(made), plugin->entry->destroy);
   }
 

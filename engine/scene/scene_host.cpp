@@ -45,4 +45,8 @@ void SceneHost::warn(Span span, const std::string& message) {
   diagnostics_.warning(span.file >= 0 ? span : place_, message);
 }
 
+void SceneHost::note(const std::string& message) {
+  if (noted_.insert(message).second) diagnostics_.note(place_, message);
+}
+
 }  // namespace vestige

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Host that plugins of a scene are created with: files beside the scene text, shared textures.
 #pragma once
+#include <set>
 #include <string>
 
 #include "engine/image/image.h"
@@ -16,6 +17,7 @@ class SceneHost final : public Host {
   std::shared_ptr<const Texture> texture(const TextureRequest& request,
                                          std::string& error) override;
   void warn(Span span, const std::string& message) override;
+  void note(const std::string& message) override;
   /// Where spans point that a plugin did not set: at the block it was made for.
   void setPlace(Span span) { place_ = span; }
 
@@ -24,6 +26,7 @@ class SceneHost final : public Host {
   TextureStore& textures_;
   Diagnostics& diagnostics_;
   Span place_;
+  std::set<std::string> noted_;
 };
 
 }  // namespace vestige

@@ -2,25 +2,12 @@
 // Whatever numbers come, no BRDF answers with NaN, infinity or a negative density: grazing angles,
 // the ends of the random numbers' interval, all parameters, and textures that leave their range.
 #include "support/brdf_events.h"
+#include "support/harsh.h"
 
 using namespace vestige;
 using namespace vestige::test;
 
 namespace {
-
-/// Numbers that a sampler may draw, the ends of the interval often.
-Real harsh(Random& r) {
-  switch (int(r.number() * 8)) {
-    case 0:
-      return 0;
-    case 1:
-      return kOneMinusEpsilon;
-    case 2:
-      return Real(0.5);
-    default:
-      return r.number();
-  }
-}
 
 /// Heights down to the smallest number, often.
 Vec3 harshDirection(Random& r) {
@@ -28,13 +15,9 @@ Vec3 harshDirection(Random& r) {
   return r.number() < Real(0.1) ? Vec3{0, 0, 1} : atHeight(z, r);
 }
 
-bool isFinite(const Mat3& m) { return isFinite(m.c[0]) && isFinite(m.c[1]) && isFinite(m.c[2]); }
-bool isColour(Rgb c) { return isFinite(c) && c.r >= 0 && c.g >= 0 && c.b >= 0; }
-bool isDensity(Real x) { return std::isfinite(x) && x >= 0; }
-
 /// The promise that a sample breaks, or "".
 std::string brokenPromise(const ScatterSample& s) {
-  if (!(std::abs(length(s.toNext) - 1) < Real(1e-3))) return "toNext is no unit vector";
+  if (!isUnit(s.toNext)) return "toNext is no unit vector";
   if (!isColour(s.weight)) return "the weight is no colour";
   if (!s.specular && !(s.pdf > 0 && std::isfinite(s.pdf))) return "pdf is not positive";
   if (!s.specular && !(s.lobePdf > 0 && std::isfinite(s.lobePdf))) return "lobePdf is not positive";
@@ -47,7 +30,7 @@ std::string brokenPromise(const BrdfCase& c, const ScatterPoint& p, ScatterNumbe
   if (s)
     if (const std::string broken = brokenPromise(*s); !broken.empty()) return broken;
   const ScatterJacobian j = c.brdf->sampleDerivatives(p, n);
-  if (s && !(isFinite(j.du.c[0]) && isFinite(j.du.c[1]))) return "du is not finite";
+  if (s && !isFinite(j.du)) return "du is not finite";
   if (s && !isFinite(j.dPrev)) return "dPrev is not finite";
   for (const Vec3 toNext : {s ? s->toNext : other, other}) {
     if (!isColour(c.brdf->eval(p, toNext))) return "f is no colour";

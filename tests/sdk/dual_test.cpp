@@ -57,6 +57,7 @@ TEST_CASE("dual arithmetic has the derivatives of calculus", "[dual]") {
     check([](Dual a) { return a * a + Dual(3) * a - a / (a + Dual(1)); }, x);
     check([](Dual a) { return sqrt(a) * exp(-a); }, x);
     check([](Dual a) { return log(a) * sin(a) - cos(a); }, x);
+    check([](Dual a) { return expm1(a) * log1p(a); }, x);
     check([](Dual a) { return pow(a, Real(2.5)); }, x);
     check([](Dual a) { return abs(a - Dual(1)) + max(a, Dual(1)) + min(a, Dual(2)); }, x);
   }

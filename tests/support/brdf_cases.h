@@ -140,6 +140,19 @@ inline std::vector<BrdfCase> brdfCases(int randomSets = 4) {
                        plugin.schema->find("ior") != nullptr});
   return cases;
 }
+/// Every BRDF found with `sets` sets of random values.
+inline std::vector<BrdfCase> randomBrdfCases(int sets) {
+  std::vector<BrdfCase> cases;
+  Random r(7);
+  for (const LoadedPlugin& plugin : pluginsOfKind("brdf"))
+    for (int i = 0; i < sets; ++i) {
+      Settings s;
+      for (const Parameter& row : plugin.schema->inputs) s[row.name] = valueWithin(row, r);
+      cases.push_back({plugin.name, textOf(s), make<Brdf>(plugin), inputsFor(*plugin.schema, s),
+                       plugin.schema->find("ior") != nullptr});
+    }
+  return cases;
+}
 inline BrdfCase brdfCase(const std::string& name, const Settings& s) {
   const LoadedPlugin plugin = pluginNamed("brdf", name);
   return {name, textOf(s), make<Brdf>(plugin), inputsFor(*plugin.schema, s),

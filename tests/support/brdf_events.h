@@ -67,6 +67,14 @@ void forEvents(const std::vector<BrdfCase>& cases, int eventsPerCase, const F& f
     }
 }
 
+/// Every case at 2000 events, and 10^4 more events of each plugin: 1000 sets of random parameters,
+/// ten events each.
+template <class F>
+void forConfigurations(const F& f) {
+  forEvents(brdfCases(), 2000, f);
+  forEvents(randomBrdfCases(1000), 10, f);
+}
+
 /// The largest error of a test and the event that made it.
 struct WorstEvent {
   double error = 0;  ///< in units of what is allowed: above 1 is a failure

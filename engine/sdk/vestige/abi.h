@@ -14,6 +14,8 @@ extern "C" struct VestigeError {
 /// checks magic, size, versions and tag before it touches another field, so a stranger's library is
 /// refused with a reason, not a crash.
 /// SDK 1: first release.   (each later version: one line saying what changed)
+/// SDK 2: SurfacePoint has second derivatives; Host::note(); `lacks`, which derivatives are
+/// missing.
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended
@@ -27,12 +29,16 @@ extern "C" struct VestigePlugin {
   /// const Values*, Host*; null: see error [main thread]
   void* (*create)(const void* values, void* host, VestigeError* error);
   void (*destroy)(void*);  ///< takes what create() gave [main thread]
+  std::uint32_t lacks;     ///< bits, see below: derivatives left to finite differences
 };
 
 namespace vestige {
 
 inline constexpr std::uint64_t kPluginMagic = 0x3145474954534556;  ///< "VESTIGE1", little endian
-inline constexpr std::uint32_t kSdkMajor = 1, kSdkMinor = 0;
+inline constexpr std::uint32_t kSdkMajor = 2, kSdkMinor = 0;
+
+/// Bits of VestigePlugin::lacks: methods that the plugin's class leaves as its interface has them.
+inline constexpr std::uint32_t kLacksSampleDerivatives = 1, kLacksLogGradient = 2;
 
 #define VESTIGE_TEXT_(x) #x
 #define VESTIGE_TEXT(x) VESTIGE_TEXT_(x)
@@ -52,6 +58,6 @@ inline constexpr const char* kAbiTag =
 #else
         " real=float"
 #endif
-    " pointer=" VESTIGE_TEXT(__SIZEOF_POINTER__) " sdk=1";
+    " pointer=" VESTIGE_TEXT(__SIZEOF_POINTER__) " sdk=2";
 
 }  // namespace vestige

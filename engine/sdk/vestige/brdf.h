@@ -77,12 +77,13 @@ class Brdf {
   virtual Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept = 0;
 
   /// Derivatives of the map inside sample(), for the numbers that it was called with [PD01 2.3].
-  /// For every lobe that is not specular: |du.c0 x du.c1| lobePdf = 1.
-  virtual ScatterJacobian sampleDerivatives(const ScatterPoint& p,
-                                            ScatterNumbers n) const noexcept = 0;
+  /// For every lobe that is not specular: |du.c0 x du.c1| lobePdf = 1. By default: finite
+  /// differences of sample(), some forty calls of it, and a note to the user.
+  virtual ScatterJacobian sampleDerivatives(const ScatterPoint& p, ScatterNumbers n) const noexcept;
 
-  /// For any toNext, sampled or chosen by a light [PD01 Sec. 3.2]. Zero where f is zero.
-  virtual LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept = 0;
+  /// For any toNext, sampled or chosen by a light [PD01 Sec. 3.2]. Zero where f is zero. By
+  /// default: finite differences of eval(), and a note to the user.
+  virtual LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept;
 
   /// Radiance crosses an interface scaled by (n_prev / n_next)^2, flux does not [Vea97 5.2]. 1
   /// where toNext stays on its side. Reciprocity then reads f(b, a) = etaScale(a, b) f(a, b).
@@ -90,3 +91,5 @@ class Brdf {
 };
 
 }  // namespace vestige
+
+#include <vestige/brdf_differences.h>  // the two defaults

@@ -42,8 +42,16 @@ class Diagnostics {
   Diagnostic& warning(Span span, std::string message) {
     return list_.emplace_back(Diagnostic{Severity::warning, span, std::move(message), {}});
   }
+  /// For what is no mistake: --werror lets it pass.
+  Diagnostic& note(Span span, std::string message) {
+    return list_.emplace_back(Diagnostic{Severity::note, span, std::move(message), {}});
+  }
   bool hasErrors() const noexcept { return errors_ > 0; }
   int errors() const noexcept { return errors_; }
+  int warnings() const noexcept {
+    return int(std::count_if(list_.begin(), list_.end(),
+                             [](const Diagnostic& d) { return d.severity == Severity::warning; }));
+  }
   const std::vector<Diagnostic>& list() const noexcept { return list_; }
 
  private:

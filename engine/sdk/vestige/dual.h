@@ -49,6 +49,9 @@ inline Dual exp(Dual a) noexcept {
   return {e, a.d * e};
 }
 inline Dual log(Dual a) noexcept { return {std::log(a.v), a.d * (1 / a.v)}; }
+/// exp(a) - 1 and log(1 + a), exact near a = 0.
+inline Dual expm1(Dual a) noexcept { return {std::expm1(a.v), a.d * std::exp(a.v)}; }
+inline Dual log1p(Dual a) noexcept { return {std::log1p(a.v), a.d * (1 / (1 + a.v))}; }
 inline Dual sin(Dual a) noexcept { return {std::sin(a.v), a.d * std::cos(a.v)}; }
 inline Dual cos(Dual a) noexcept { return {std::cos(a.v), a.d * -std::sin(a.v)}; }
 /// a to a constant power, a >= 0.
@@ -84,6 +87,10 @@ TVec3<T> operator*(const T& s, const TVec3<T>& a) noexcept {
 template <class T>
 T dot(const TVec3<T>& a, const TVec3<T>& b) noexcept {
   return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+TVec3<T> cross(const TVec3<T>& a, const TVec3<T>& b) noexcept {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class T>
 TVec3<T> normalize(const TVec3<T>& a) noexcept {

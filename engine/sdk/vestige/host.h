@@ -44,6 +44,8 @@ class Host {
                                                  std::string& error) = 0;
   /// Something the user should know that does not stop the render.
   virtual void warn(Span span, const std::string& message) = 0;
+  /// Something worth knowing that is nobody's mistake; said once, however often it is told.
+  virtual void note(const std::string& /*message*/) {}
 };
 
 }  // namespace vestige

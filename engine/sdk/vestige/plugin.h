@@ -65,6 +65,24 @@ void* create(const void* values, void* host, VestigeError* error) {
   }
 }
 
+/// Whether Class leaves a derivative to the default of its Interface: then the type of the member
+/// names the interface. A member that cannot be named here is one that Class hides: its own.
+template <class Interface, class Class>
+constexpr std::uint32_t lacks() {
+  std::uint32_t bits = 0;
+  if constexpr (requires {
+                  requires std::is_same_v<decltype(&Class::sampleDerivatives),
+                                          decltype(&Interface::sampleDerivatives)>;
+                })
+    bits |= kLacksSampleDerivatives;
+  if constexpr (requires {
+                  requires std::is_same_v<decltype(&Class::logGradient),
+                                          decltype(&Interface::logGradient)>;
+                })
+    bits |= kLacksLogGradient;
+  return bits;
+}
+
 template <class Class>
 const Schema& schemaOf() {
   static const Schema schema = Class::schema();
@@ -89,7 +107,8 @@ const Schema& schemaOf() {
       VESTIGE_PLUGIN_VERSION,                                                           \
       []() -> const void* { return &::vestige::detail::schemaOf<Class>(); },            \
       &::vestige::detail::create<Interface, Class>,                                     \
-      [](void* made) { delete static_cast<Interface*>(made); }};
+      [](void* made) { delete static_cast<Interface*>(made); },                         \
+      ::vestige::detail::lacks<Interface, Class>()};
 
 #ifndef VESTIGE_PLUGIN_VERSION
 #define VESTIGE_PLUGIN_VERSION "1.0"

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Derivatives of a routine from its own values, for plugins that do not write theirs. Slower and
+// less exact than a formula: a float keeps about three digits of a derivative, a double about nine.
+#pragma once
+#include <vestige/math.h>
+#include <optional>
+
+namespace vestige::differences {
+
+/// First step, in the units of the argument; what is smooth is smooth on the scale of 1.
+inline constexpr Real kStep = sizeof(Real) == 8 ? Real(1e-3) : Real(8e-3);
+/// An estimate this good, relative to the derivative, ends the search for a better step.
+inline constexpr Real kGoodEnough = sizeof(Real) == 8 ? Real(1e-6) : Real(1e-3);
+/// Tries, each with a quarter of the step before.
+inline constexpr int kTries = 5;
+
+inline Real magnitude(Real x) noexcept { return std::abs(x); }
+inline Real magnitude(Vec3 x) noexcept { return length(x); }
+
+/// A derivative, and how far off it may be.
+template <class Value>
+struct Slope {
+  Value value{};
+  Real error = kInfinity;  ///< infinite: there is none
+
+  void keepBetter(Value v, Real e) noexcept {
+    if (e < error) value = v, error = e;
+  }
+};
+
+/// With one step. `map` takes a Real to an optional Value (nullopt: the map has no value there, or
+/// another branch of it); `here` is map(0). Two orders of one stencil tell the error of the lower;
+/// at a seam, where those or the slopes of both sides disagree, the side without the seam wins.
+template <class Map, class Value>
+Slope<Value> slopeWithStep(const Map& map, Value here, Real h) noexcept {
+  Slope<Value> best;
+  const auto back2 = map(-2 * h), back = map(-h), next = map(h), next2 = map(2 * h);
+  const auto quadratic = [&](const Value& a, const Value& b, Real step) {
+    return (Real(4) * a - Real(3) * here - b) * (1 / (2 * step));
+  };
+  if (back2 && back && next && next2) {
+    const Value near = (*next - *back) * (1 / (2 * h)), far = (*next2 - *back2) * (1 / (4 * h));
+    // The far slope errs four times as much as the near one, the same way.
+    const Value central = (Real(4) * near - far) * (Real(1) / 3);
+    const Value kink = quadratic(*next, *next2, h) - quadratic(*back, *back2, -h);
+    best.keepBetter(central, std::max(magnitude(central - near), magnitude(kink)));
+    if (best.error <= kGoodEnough * magnitude(central)) return best;
+  }
+  const auto oneSided = [&](const auto& a, const auto& b, Real step) {
+    if (!a || !b) return;
+    const auto c = map(3 * step);
+    if (!c) return;
+    const Value cubic =
+        (Real(18) * *a - Real(11) * here - Real(9) * *b + Real(2) * *c) * (1 / (6 * step));
+    best.keepBetter(cubic, magnitude(cubic - quadratic(*a, *b, step)));
+  };
+  oneSided(next, next2, h), oneSided(back, back2, -h);
+  return best;
+}
+
+/// d map / d x at 0, from steps `h` and below; zero where nothing can be said. `noise`: how large
+/// the values are that the map rounds.
+template <class Map, class Value>
+Value derivative(const Map& map, Value here, Real h, Real noise = 1) noexcept {
+  Slope<Value> best;
+  for (int k = 0; k < kTries; ++k, h /= 4) {
+    Slope<Value> s = slopeWithStep(map, here, h);
+    s.error += 4 * noise * std::numeric_limits<Real>::epsilon() / h;
+    best.keepBetter(s.value, s.error);
+    if (best.error <= kGoodEnough * magnitude(best.value)) break;
+  }
+  return std::isfinite(magnitude(best.value)) ? best.value : Value{};
+}
+
+}  // namespace vestige::differences
