@@ -105,6 +105,19 @@ void summarise(Texels& t, const TexelArray<Code>& array) {
   t.bytes = array.codes.size() * sizeof(Code);
 }
 
+/// `unit`: the tables end at 1.
+template <class Code>
+void addPyramid(Texels& t, const TexelArray<Code>& array, bool unit) {
+  const int n = t.channels, colours = t.hasAlpha() ? n - 1 : n;
+  const std::size_t length = std::size_t(t.width) * n;
+  t.pyramid = makePyramid(t.width, t.height, n, unit, [&](std::int32_t y, float* row) {
+    const std::size_t start = std::size_t(t.height - 1 - y) * length;
+    for (std::size_t i = 0; i < length; ++i)
+      row[i] = decoded(array, start + i, int(i % n) >= colours);
+  });
+  t.bytes += t.pyramid.bytes();
+}
+
 /// One texture on its way from file to memory.
 struct Loading {
   OIIO::ImageInput& input;
@@ -123,7 +136,7 @@ struct Loading {
     if (premultiplied) divideByAlpha(array.codes, texels.channels);
     array.colour = integerTable(8 * sizeof(Code), encoding);
     array.alpha = integerTable(8 * sizeof(Code), {});
-    return keep(std::move(array));
+    return keep(std::move(array), true);
   }
 
   /// Halfs, kept as their bits.
@@ -177,8 +190,9 @@ struct Loading {
   }
 
   template <class Code>
-  bool keep(TexelArray<Code>&& array) {
+  bool keep(TexelArray<Code>&& array, bool unit = false) {
     summarise(texels, array);
+    addPyramid(texels, array, unit);
     texels.data = std::move(array);
     return true;
   }

@@ -10,6 +10,8 @@
 
 #include <vestige/math.h>
 
+#include "engine/image/pyramid.h"
+
 namespace vestige {
 
 using DecodeTable = std::vector<float>;  ///< by code value: 256 or 65536 entries
@@ -26,8 +28,9 @@ struct TexelArray {
 struct Texels {
   int width = 0, height = 0, channels = 0;
   std::variant<TexelArray<std::uint8_t>, TexelArray<std::uint16_t>, TexelArray<float>> data;
+  Pyramid pyramid;
   Rgba mean;
-  std::size_t bytes = 0;
+  std::size_t bytes = 0;      ///< pyramid included
   std::size_t nonFinite = 0;  ///< texels' channels that were NaN or infinite and are 0 now
 
   bool hasAlpha() const noexcept { return channels == 2 || channels == 4; }

@@ -2,8 +2,8 @@
 #include <map>
 #include <tuple>
 
-#include "engine/image/bilinear_texture.h"
 #include "engine/image/image.h"
+#include "engine/image/memory_texture.h"
 #include "engine/image/texels.h"
 
 namespace vestige {
@@ -15,13 +15,13 @@ std::shared_ptr<const Texture> withChannels(const std::shared_ptr<const Texels>&
                                             Wrap v) {
   switch (texels->channels) {
     case 1:
-      return std::make_shared<BilinearTexture<Code, 1>>(texels, u, v);
+      return std::make_shared<MemoryTexture<Code, 1>>(texels, u, v);
     case 2:
-      return std::make_shared<BilinearTexture<Code, 2>>(texels, u, v);
+      return std::make_shared<MemoryTexture<Code, 2>>(texels, u, v);
     case 3:
-      return std::make_shared<BilinearTexture<Code, 3>>(texels, u, v);
+      return std::make_shared<MemoryTexture<Code, 3>>(texels, u, v);
     default:
-      return std::make_shared<BilinearTexture<Code, 4>>(texels, u, v);
+      return std::make_shared<MemoryTexture<Code, 4>>(texels, u, v);
   }
 }
 

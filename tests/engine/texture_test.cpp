@@ -236,12 +236,14 @@ TEST_CASE("a picture is read once and stays as small as it was", "[texture]") {
   writePng(folder / "a.png", 16, 16, 3, 8, std::vector<int>(768, 128));
   TextureStore store;
   const auto a = load(store, folder / "a.png");
-  CHECK(store.bytes() == 768);
+  const std::size_t once = store.bytes();  // what a pyramid adds: see texture_filter_test.cpp
+  CHECK(once >= 768);
+  CHECK(once < 2 * 768 + 1024);
   CHECK(load(store, folder / "a.png") == a);
   CHECK(load(store, folder / "a.png", "", Wrap::clamp) != a);
-  CHECK(store.bytes() == 768);  // the same texels, wrapped another way
+  CHECK(store.bytes() == once);  // the same texels, wrapped another way
   CHECK(load(store, folder / "a.png", "raw") != a);
-  CHECK(store.bytes() == 2 * 768);
+  CHECK(store.bytes() == 2 * once);
   std::filesystem::remove(folder / "a.png");
   CHECK(load(store, folder / "a.png") == a);
 }

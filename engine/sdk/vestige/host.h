@@ -18,10 +18,17 @@ struct TextureRequest {
 };
 
 /// An image in rendering space. v = 0 at the bottom row, texel centres at (i + 0.5) / n.
+/// Footprints: two vectors, each as long as the whole of a uniform segment, so the filter has the
+/// covariance (a a^T + b b^T) / 12 in uv: that of a box over the parallelogram they span.
 class Texture {
  public:
   virtual ~Texture() = default;
-  /// Bilinear where the footprint is below a texel, else averaged over it [any thread].
+  /// The average of the point lookups under the footprint, channel by channel in linear light
+  /// (colour is not weighted by alpha, as in mean()) [any thread]. Zero vectors ask for a point,
+  /// which is bilinear; so, to the bit, does any footprint whose longest axis, the root of the
+  /// larger eigenvalue of a a^T + b b^T, is within one texel, and one that is not a number. Up to
+  /// two texels both are mixed, so nothing jumps. Beyond an aspect of 32 the shorter axis is
+  /// widened, beyond 16 times the picture each axis is cut.
   virtual Rgba lookup(Vec2 uv, const Vec2 dUv[2]) const noexcept = 0;
   /// One texel of the full resolution; x, y inside the image, row 0 at the bottom [any thread].
   virtual Rgba texel(int x, int y) const noexcept = 0;

@@ -7,9 +7,10 @@
 /// Said once, true of every method:
 ///   * A pigment is asked in its own space: transforms of the scene were undone by the engine, for
 ///     `position` all of them, for `uv` those written inside the pigment's own braces.
-///   * A footprint is two differential vectors that span an ellipse, its principal half-axes being
-///     those of the covariance a a^T + b b^T; zero vectors ask for a point. A footprint below one
-///     texel gives exactly the point's value.
+///   * A footprint is two differential vectors, each the full length of a uniform segment: what is
+///     asked for is the average under a filter of covariance (a a^T + b b^T) / 12, which a box over
+///     their parallelogram has. Zero vectors ask for a point. A footprint whose longest axis is
+///     within one texel gives exactly the point's value.
 ///   * Colours are linear, in rendering space; alpha 1 is opaque; not premultiplied.
 ///   * Methods are const, thread-safe and noexcept; they allocate nothing.
 namespace vestige {
