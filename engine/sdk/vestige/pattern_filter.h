@@ -26,8 +26,11 @@ struct Widths {
   }
 };
 
-/// The part after the point, in [0, 1).
-inline double fraction(double x) noexcept { return x - std::floor(x); }
+/// The part after the point, in [0, 1]; 0 of what has none.
+inline double fraction(double x) noexcept {
+  const double part = x - std::floor(x);
+  return part >= 0 ? part : 0;
+}
 
 /// Waves of period 1, by value, mean over a period, and the first and second integral of what is
 /// left without the mean. Integrals have period 1, which fixes the first; the second's constant
@@ -96,7 +99,7 @@ double filtered(const Wave& wave, double t, Widths widths) noexcept {
            (w * s);
   }
   const double mean = wave.mean() + rest;
-  return mean > 0 ? std::min(mean, 1.0) : 0.0;  // a place that is no number gives 0
+  return std::clamp(mean, 0.0, 1.0);
 }
 
 /// A footprint in a pattern's own units.
