@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // From one colour to another along a direction, again and again.
-#include <vestige/pigment.h>
+#include <vestige/pattern_filter.h>
 #include <vestige/plugin.h>
 
 namespace vestige {
 
 /// POV-Ray's `gradient`: t = p . direction, of which the part after the point goes from 0 (first
 /// colour) to 1 (second) and falls back. The direction's length counts: <0, 2, 0> repeats twice a
-/// unit.
+/// unit. Its mean over a footprint is exact.
 class Gradient final : public Pigment {
  public:
   static Schema schema() {
@@ -26,6 +26,9 @@ class Gradient final : public Pigment {
 
   Rgba eval(const Lookup& at) const noexcept override {
     const Real t = dot(at.position, direction_);
+    const Widths widths{dot(at.footprint.dP[0], direction_), dot(at.footprint.dP[1], direction_)};
+    if (!widths.isPoint())
+      return {first_ + Real(filtered(SawWave{}, t, widths)) * (second_ - first_), 1};
     const Real share = std::min(t - std::floor(t), kOneMinusEpsilon);  // -1e-9 would round to 1
     return {first_ + share * (second_ - first_), 1};
   }
