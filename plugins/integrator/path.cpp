@@ -4,10 +4,9 @@
 //
 // [Kaj86] Kajiya. The rendering equation. SIGGRAPH 1986.
 // [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
-#include <vestige/footprint.h>
+#include <vestige/direct_light.h>
 #include <vestige/path_report.h>
 #include <vestige/plugin.h>
-#include <vestige/sampling.h>
 
 namespace vestige {
 namespace {
@@ -22,10 +21,9 @@ constexpr int kMaxLayers = 64;
 /// A path under way.
 struct Path {
   Ray ray;
-  Vec3 from;  ///< last scattering point: what light densities are asked from
+  DrawnRay drawn;
   Rgb throughput{1, 1, 1};
-  Rgb flux{1, 1, 1};     ///< throughput without eta^2: what roulette decides by
-  Real pdf = kInfinity;  ///< of ray.direction, 1/sr; infinite after the camera and specular events
+  Rgb flux{1, 1, 1};                     ///< throughput without eta^2: what roulette decides by
   PathFootprint<>* footprint = nullptr;  ///< null: carries none
   Real sceneSize = 0;
   PathReport report;
@@ -61,7 +59,7 @@ class PathIntegrator final : public Integrator {
   int samples() const noexcept override { return samples_; }
 
   Rgb estimate(PathContext& context) const noexcept override {
-    Path path{.ray = context.ray, .from = context.ray.origin, .report = PathReport(context)};
+    Path path{.ray = context.ray, .drawn = {context.ray.origin}, .report = PathReport(context)};
     if (!carriesFootprint(context, footprint_)) return trace(context, path);
     PathFootprint<> footprint;
     footprint.begin(context, footprint_);
@@ -82,7 +80,8 @@ class PathIntegrator final : public Integrator {
         path.report.end(*hit, x.toPrev, path.throughput, "end", path.footprint);
         break;
       }
-      radiance += path.throughput * directLight(context, *hit, x, edge);
+      radiance += path.throughput *
+                  directLight(context, *hit, x, std::uint32_t(edge - 1), context.sampler.index());
       if (!scatter(context, path, *hit, x, edge)) break;
     }
     return radiance;
@@ -97,14 +96,15 @@ class PathIntegrator final : public Integrator {
       ++c.counters.rays;
       const std::optional<Surface> hit = c.scene.intersect(path.ray);
       if (!hit) {
-        radiance += path.throughput * background(c.scene, path);
+        Vec3 spread[2];
+        if (path.footprint) path.footprint->directions(spread);
+        radiance += path.throughput * background(c.scene, path.drawn, path.ray.direction,
+                                                 path.footprint ? spread : nullptr);
         path.report.escape(path.ray.direction, path.throughput);
         return std::nullopt;
       }
       if (path.footprint) path.footprint->arrive(path.ray.direction, *hit, path.sceneSize);
-      if (hit->light >= 0)
-        radiance += path.throughput * misWeight(path.pdf, c.scene.lightPdf(*hit, path.from)) *
-                    c.scene.emitted(*hit, path.from);
+      radiance += path.throughput * metLight(c.scene, *hit, path.drawn);
       x = c.scene.shade(*hit, -path.ray.direction, path.region(), buffer);
       const std::uint32_t dim = dimension::vertex(edge - 1) + dimension::kOpacity;
       // Layers beyond the first have numbers of their own, far from those of any vertex.
@@ -116,41 +116,6 @@ class PathIntegrator final : public Integrator {
       path.ray = spawnRay(*hit, path.ray.direction);
     }
     return std::nullopt;
-  }
-
-  static Real misWeight(Real scatterDensity, Real lightDensity) noexcept {
-    return powerHeuristic(scatterDensity, lightDensity);
-  }
-
-  static Rgb background(const SceneView& scene, const Path& path) noexcept {
-    Rgb sum;
-    for (const int i : scene.infiniteLights()) {
-      const Light& light = *scene.lights()[std::size_t(i)];
-      const LightHit hit{path.from, path.ray.direction, kInfinity, {}, {}, {}};
-      sum += misWeight(path.pdf, scene.lightChance(i) * light.pdf(hit)) * light.eval(hit);
-    }
-    return sum;
-  }
-
-  /// Next-event estimation: one light, one point of it [Vea97 9.2].
-  static Rgb directLight(PathContext& c, const Surface& s, const Interaction& x,
-                         int edge) noexcept {
-    const std::uint32_t dim = dimension::vertex(edge - 1);
-    const auto choice = c.scene.chooseLight(c.sampler.number(dim + dimension::kLightChoice));
-    if (!choice || !x.brdf) return {};
-    const Light& light = *c.scene.lights()[std::size_t(choice->light)];
-    const auto drawn = light.sample(s.position, c.sampler.pair(dim + dimension::kLight));
-    if (!drawn) return {};
-    const Rgb f = evalScatter(x, drawn->hit.toLight);
-    if (isBlack(f) || isBlack(drawn->radiance)) return {};
-    ++c.counters.shadowRays;
-    const Real visible =
-        c.scene.transmittance(shadowRay(s, drawn->hit.toLight, drawn->hit.distance));
-    if (visible == 0) return {};
-    const Real density = choice->chance * drawn->pdf;
-    const Real weight =
-        light.isDelta() ? 1 : powerHeuristic(density, scatterPdf(x, drawn->hit.toLight));
-    return (visible * weight / density) * f * drawn->radiance;
   }
 
   /// Draws the next ray; false where the path ends.
@@ -170,8 +135,7 @@ class PathIntegrator final : public Integrator {
     path.report.left(path.footprint);
     path.throughput *= next->weight;
     path.flux *= next->local.weight;
-    path.pdf = next->local.specular ? kInfinity : next->local.pdf;
-    path.from = s.position;
+    path.drawn = {s.position, next->local.specular ? kInfinity : next->local.pdf};
     path.ray = spawnRay(s, next->toNext);
     return !isBlack(path.throughput) &&
            (edge < kRouletteFrom || survives(path, c.sampler.number(dim + dimension::kRoulette)));

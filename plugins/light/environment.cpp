@@ -75,7 +75,19 @@ class Environment final : public Light {
   }
 
   Rgb eval(const LightHit& hit) const noexcept override {
-    return image_ ? radiance_ * lookup(uvOf(local(hit.toLight)).uv) : radiance_;
+    if (!image_) return radiance_;
+    const Vec3 d = local(hit.toLight);
+    const Place p = uvOf(d);
+    // d(uv) of a turn of the direction [MATH 1.13]; next to a pole a texel's height is the least
+    // that the sine may be.
+    const Real sine = std::max(p.sine, 1 / Real(image_->height()));
+    Vec2 spread[2];
+    for (int i = 0; i < 2; ++i) {
+      const Vec3 t = local(hit.spread[i]);
+      const Real around = (d.z * t.x - d.x * t.z) / p.sine;
+      spread[i] = {around / (2 * kPi * sine), t.y / (kPi * p.sine)};
+    }
+    return radiance_ * lit(image_->lookup(p.uv, spread).colour);
   }
 
   LightJacobian sampleDerivatives(Vec3, Vec2 u) const noexcept override {

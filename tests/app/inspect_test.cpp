@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <nlohmann/json.hpp>
 
-#include "run.h"
+#include "app/run.h"
 #include "support/catch.h"
-
-using namespace vestige::test;
 
 namespace {
 

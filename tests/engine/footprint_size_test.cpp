@@ -36,7 +36,7 @@ struct Landed {
 /// Samples that follow the middle of the film to `vertices` surfaces, the ones named.
 std::vector<Landed> land(const Scene& scene, int samples, int vertices,
                          const std::vector<int>& objects, const FootprintSettings& settings,
-                         int strata) {
+                         Real strata) {
   std::vector<Landed> all;
   for (int i = 0; i < samples; ++i) {
     const Sampler sampler(3, 5, std::uint32_t(i), 7);
@@ -112,7 +112,7 @@ std::vector<Series> measure(const std::vector<int>& counts) {
   std::vector<Series> all = {{"behind a Phong lobe, local deltas", {}},
                              {"behind two diffuse bounces, global deltas", {}}};
   for (const int n : counts) {
-    const int strata = int(std::lround(std::sqrt(n)));
+    const Real strata = std::sqrt(Real(n));
     all[0].ratios.push_back(medianRatio(land(*glossy, n, 2, {0, 1}, local, strata)));
     all[1].ratios.push_back(medianRatio(land(*matt, 4 * n, 3, {0, 1, 2}, global, 1)));
   }

@@ -24,9 +24,10 @@
 
 namespace vestige {
 
-/// Into how many children a scattering splits: strata of its first times of its second number.
+/// Into how many children a scattering splits: strata of its first times of its second number. Not
+/// whole where a net of points fills the square: 2 points are 1.41 x 1.41.
 struct Strata {
-  int u = 1, v = 1;
+  Real u = 1, v = 1;
 };
 
 /// Lanes: the most numbers that are followed; when the next event would not fit, they are reduced.
@@ -36,6 +37,7 @@ class PathFootprint {
   /// A path from the camera.
   void begin(const PathContext& c, const FootprintSettings& settings) noexcept {
     begin(c.jacobian, c.cameraVariables, c.sampler.index(), c.declaredSamples, settings);
+    leaving_ = c.ray.direction;
   }
   /// `index`: of the sample in its pixel; `declared`: samples a pixel, particles of all lights; 0
   /// if open ended.
@@ -73,6 +75,18 @@ class PathFootprint {
     return result;
   }
 
+  /// The same for the direction of the ray that left the last surface: two vectors across it.
+  void directions(Vec3 spread[2]) const noexcept {
+    const Frame f = Frame::around(leaving_);
+    Covariance m;
+    for (int j = 0; j < differentials_.size(); ++j) {
+      const Vec3 d = delta(j) * differentials_.dDirection(j);
+      m.add({dot(d, f.s), dot(d, f.t)});
+    }
+    const Region r = ellipse(m);
+    spread[0] = r.a.x * f.s + r.a.y * f.t, spread[1] = r.b.x * f.s + r.b.y * f.t;
+  }
+
   /// Exact area of the polygon that the differential vectors span (Minkowski sum) [MATH 2.1].
   Real area() const noexcept { return polygonArea(vectors(Frame::around(normal_)).all()); }
 
@@ -85,14 +99,15 @@ class PathFootprint {
     const int before = differentials_.size();
     differentials_.scatter(event(s, x, drawn.toNext), x.brdf->sampleDerivatives(x.point, numbers),
                            x.brdf->logGradient(x.point, drawn.local.toNext), drawn.local.specular);
+    leaving_ = drawn.toNext;
     count_.chance(drawn.local.lobeChance);
     count_.split(strata.u * strata.v);
     if (drawn.local.specular) return;
     count_.drew(2);
     const bool isLocal = settings_.deltas.bound == Bound::local;
-    const auto own = [&](int n) {
-      return isLocal ? std::min(settings_.deltas.scale / Real(n), Real(1)) : Real(0);
-    };
+    // Only a share of the split's rays are drawn from this lobe.
+    const Real spread = settings_.deltas.scale / std::sqrt(drawn.local.lobeChance);
+    const auto own = [&](Real n) { return isLocal ? std::min(spread / n, Real(1)) : Real(0); };
     if (before < Lanes) frozen_[before] = own(strata.u);
     if (before + 1 < Lanes) frozen_[before + 1] = own(strata.v);
   }
@@ -169,7 +184,8 @@ class PathFootprint {
   PathCount count_;
   FootprintSettings settings_;
   SurfaceMotion motion_;
-  Vec3 normal_, direction_;
+  Vec3 normal_, direction_;  ///< of the surface arrived at, and D
+  Vec3 leaving_;             ///< the ray under way
 };
 
 }  // namespace vestige

@@ -12,8 +12,8 @@
 ///   spot,
 ///     distant), which none can. For a delta light pdf is 1 and `radiance` is the irradiance that
 ///     arrives across toLight, W/m^2.
-///   * Emission is looked up without footprint: the strategies of multiple importance sampling must
-///     estimate the same integral.
+///   * Emission is looked up without footprint wherever two strategies of multiple importance
+///     sampling must estimate the same integral.
 ///   * Methods are const, thread-safe and noexcept; they allocate nothing. "No sample" is an
 ///   ordinary
 ///     value.
@@ -27,6 +27,9 @@ struct LightHit {
   Vec3 position;  ///< on the light; meaningless at infinity
   Vec3 normal;    ///< geometric normal there, unit; zero at infinity
   Vec2 uv;
+  /// How toLight moves over the footprint of a path that nothing was drawn against: lights at
+  /// infinity may average over it. Zero: a point.
+  Vec3 spread[2] = {};
 };
 
 struct LightSample {

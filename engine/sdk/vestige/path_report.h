@@ -28,8 +28,10 @@ inline Real texelSideOf(const Footprint& f, Vec2 texels) noexcept {
 
 class PathReport {
  public:
+  /// To nobody.
+  PathReport() = default;
   explicit PathReport(PathContext& c) noexcept
-      : scene_(c.scene), aovs_(c.wantsFootprint ? c.aovs : nullptr), record_(c.record) {}
+      : scene_(&c.scene), aovs_(c.wantsFootprint ? c.aovs : nullptr), record_(c.record) {}
 
   /// The path reached a surface and scattered; before the footprint knows.
   template <int Lanes>
@@ -39,7 +41,7 @@ class PathReport {
     if (!aovs_ || !f || drawn.local.specular) return;
     const Footprint region = f->footprint();
     aovs_->footprint = sideOf(region);
-    aovs_->footprintTexels = texelSideOf(region, scene_.texels(s));
+    aovs_->footprintTexels = texelSideOf(region, scene_->texels(s));
     isWaiting_ = true;
   }
   /// ... and now the footprint knows.
@@ -72,7 +74,7 @@ class PathReport {
                     const std::optional<ScatterSample>& scattered) const noexcept {
     PathVertex v;
     v.surface = s, v.toPrev = toPrev, v.throughput = throughput, v.event = event;
-    v.scattered = scattered, v.texels = scene_.texels(s);
+    v.scattered = scattered, v.texels = scene_->texels(s);
     if (!f) return v;
     VertexDifferentials& d = v.differentials;
     d.size = std::min(f->differentials().size(), VertexDifferentials::kMost);
@@ -86,9 +88,9 @@ class PathReport {
     return v;
   }
 
-  const SceneView& scene_;
-  Aovs* aovs_;
-  PathRecord* record_;
+  const SceneView* scene_ = nullptr;
+  Aovs* aovs_ = nullptr;
+  PathRecord* record_ = nullptr;
   bool isWaiting_ = false;
 };
 

@@ -48,7 +48,7 @@ class PathCount {
   /// light, opacity. Fewer paths are like it.
   void chance(Real probability) noexcept { share_ *= probability; }
   /// A splitting into n children.
-  void split(int n) noexcept { share_ *= Real(n); }
+  void split(Real n) noexcept { share_ *= n; }
   /// Numbers drawn at an event: 2, or 0 if specular.
   void drew(int numbers) noexcept { variables_ += numbers; }
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lights bring to a vertex, two ways at once: drawn towards them (next-event estimation), and
+// met by the rays that scattering drew. Multiple importance sampling weighs them [Vea97 9.2].
+// Shared by all integrators that follow paths from the eye.
+//
+// [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
+#pragma once
+#include <vestige/integrator.h>
+#include <vestige/sampling.h>
+
+namespace vestige {
+
+/// A ray as multiple importance sampling sees it.
+struct DrawnRay {
+  Vec3 from;                 ///< where the last scattering was: what light densities are asked from
+  Real density = kInfinity;  ///< of its direction times how many were drawn, 1/sr; infinite after
+                             ///< the camera and specular events: then no light was drawn against it
+  Real lightSamples = 1;     ///< drawn towards lights at `from`
+  bool isUnrivalled() const noexcept { return !(density < kInfinity); }
+};
+
+/// The radiance of a light that the ray met, weighted.
+inline Rgb metLight(const SceneView& scene, const Surface& s, const DrawnRay& ray) noexcept {
+  if (s.light < 0) return {};
+  const Real rival = ray.lightSamples * scene.lightPdf(s, ray.from);
+  return powerHeuristic(ray.density, rival) * scene.emitted(s, ray.from);
+}
+
+/// What lights at infinity add to a ray that left the scene. `spread`: how the direction moves over
+/// the path's footprint; only rays without a rival may be filtered [MATH T7].
+inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 direction,
+                      const Vec3 spread[2]) noexcept {
+  Rgb sum;
+  for (const int i : scene.infiniteLights()) {
+    const Light& light = *scene.lights()[std::size_t(i)];
+    LightHit hit{ray.from, direction, kInfinity, {}, {}, {}};
+    if (ray.isUnrivalled() && spread) hit.spread[0] = spread[0], hit.spread[1] = spread[1];
+    const Real rival = ray.lightSamples * scene.lightChance(i) * light.pdf(hit);
+    sum += powerHeuristic(ray.density, rival) * light.eval(hit);
+  }
+  return sum;
+}
+
+/// Next-event estimation: one light, one point of it. The mean of `samples` of these is the direct
+/// light; `scattered` rays are drawn besides. `index`: of the sample in its sequences.
+inline Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
+                       std::uint32_t index, Real samples = 1, Real scattered = 1) noexcept {
+  const std::uint32_t dim = dimension::vertex(vertex);
+  const auto choice = c.scene.chooseLight(c.sampler.number(dim + dimension::kLightChoice, index));
+  if (!choice || !x.brdf) return {};
+  const Light& light = *c.scene.lights()[std::size_t(choice->light)];
+  const auto drawn = light.sample(s.position, c.sampler.pair(dim + dimension::kLight, index));
+  if (!drawn) return {};
+  const Rgb f = evalScatter(x, drawn->hit.toLight);
+  if (isBlack(f) || isBlack(drawn->radiance)) return {};
+  ++c.counters.shadowRays;
+  const Real visible = c.scene.transmittance(shadowRay(s, drawn->hit.toLight, drawn->hit.distance));
+  if (visible == 0) return {};
+  const Real density = choice->chance * drawn->pdf;
+  const Real weight =
+      light.isDelta()
+          ? 1
+          : powerHeuristic(samples * density, scattered * scatterPdf(x, drawn->hit.toLight));
+  return (visible * weight / density) * f * drawn->radiance;
+}
+
+}  // namespace vestige
