@@ -4,6 +4,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
+
 #include "app/command.h"
 
 namespace vestige::app {
@@ -12,11 +14,14 @@ namespace {
 std::atomic<bool> interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not lock");
 
-/// Only what POSIX allows inside a handler.
+/// Only what POSIX allows inside a handler; whoever was interrupted finds his errno as it was.
 void onSignal(int) {
   if (interrupted.exchange(true)) _exit(kInterrupted);
   static constexpr char kText[] = "\nstopping after the current tiles; once more stops at once\n";
-  if (isatty(STDERR_FILENO) && write(STDERR_FILENO, kText, sizeof kText - 1) < 0) return;
+  const int before = errno;
+  [[maybe_unused]] ssize_t written = 0;
+  if (isatty(STDERR_FILENO)) written = write(STDERR_FILENO, kText, sizeof kText - 1);
+  errno = before;
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace {
 
 /// A camera straight above a plane, 64 pixels wide: one pixel is 4 units / 64 across.
 const char* const kPlane = R"(
-camera pinhole { location <0, 2, 0> look_at <0, 0, 0> angle 90 up z }
+camera pinhole { location <0, 2, 0> look_at <0, 0, 0> angle 90 sky z }
 film { resolution <64, 64> }
 integrator path { samples 4 depth 3 }
 light distant { direction <0, -1, 0> irradiance rgb 1 }
