@@ -3,7 +3,7 @@
 
 # Flags that every target of ours is compiled with.
 add_library(vestige_flags INTERFACE)
-target_compile_options(vestige_flags INTERFACE -Wall -Wextra -ffp-contract=off)
+target_compile_options(vestige_flags INTERFACE -Wall -Wextra -ffp-contract=off -fno-math-errno)
 if(VESTIGE_DOUBLE)
   target_compile_definitions(vestige_flags INTERFACE VESTIGE_DOUBLE)
   # A note of gcc about vectors of four doubles; none crosses a library boundary.

@@ -230,6 +230,7 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
     // What enters the light linearly may be averaged; a normal or a roughness may not [MATH T8].
     const bool isFiltered = i == m.opacity || (!isReal && i != m.normalMap);
     m.textured.push_back({i, isReal, isFiltered, Real(rows[i].low), Real(rows[i].high), *p});
+    m.usesFootprint |= isFiltered;
     if (i == m.normalMap) m.hasNormalMap = true;
     if (i == m.opacity) m.isTranslucent = true;
   }

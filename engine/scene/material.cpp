@@ -52,11 +52,6 @@ Rgba PlacedPigment::eval(const SurfacePoint& at, const Footprint& footprint) con
   return pigment->eval(lookup);
 }
 
-bool Material::usesFootprint() const noexcept {
-  return std::any_of(textured.begin(), textured.end(),
-                     [](const TexturedInput& t) { return t.isFiltered; });
-}
-
 Vec2 Material::texels() const noexcept {
   Vec2 finest;
   for (const TexturedInput& t : textured) {

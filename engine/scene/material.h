@@ -34,8 +34,8 @@ struct Material {
   int normalMap = -1, opacity = -1;  ///< indices of these inputs
   bool hasNormalMap = false;
   bool isTranslucent = false;  ///< opacity may be below 1
+  bool usesFootprint = false;  ///< some input is filtered
 
-  bool usesFootprint() const noexcept;
   /// Texels of the finest texture, a unit of uv; <0, 0> without one.
   Vec2 texels() const noexcept;
   /// Opacity alone, for shadow rays.

@@ -49,7 +49,7 @@ void Scene::Impl::commit() {
     if (ownedLights[i]->isInfinite()) infinite.push_back(int(i));
   }
   lightTable.build(lightList);
-  for (const Material& m : materials) hasTextures |= m.usesFootprint();
+  for (const Material& m : materials) hasTextures |= m.usesFootprint;
 }
 
 Real Scene::Impl::transmittance(const Ray& ray) const noexcept {

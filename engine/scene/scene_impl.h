@@ -60,6 +60,7 @@ struct Scene::Impl final : SceneView {
   Real lightChance(int light) const noexcept override { return lightTable.chance(light); }
   std::span<const int> infiniteLights() const noexcept override { return infinite; }
   bool usesFootprints() const noexcept override { return hasTextures; }
+  bool usesFootprint(const Surface& s) const noexcept override { return material(s).usesFootprint; }
   Vec2 texels(const Surface& s) const noexcept override { return material(s).texels(); }
   Bounds bounds() const noexcept override { return world.bounds(); }
   std::span<const Patch> patches() const noexcept override { return world.patches(); }

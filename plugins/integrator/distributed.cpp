@@ -103,7 +103,7 @@ class Distributed final : public Integrator {
       sum += metLight(c.scene, *hit, node.drawn);
       InputBuffer buffer;
       const Interaction x =
-          c.scene.shade(*hit, -node.ray.direction, f ? f->footprint() : Footprint{}, buffer);
+          c.scene.shade(*hit, -node.ray.direction, regionAt(c.scene, *hit, f), buffer);
       if (node.edge == 1 && layer == 0 && c.aovs) writeAovs(*c.aovs, *hit, x);
       if (stays(c, node, x, layer)) return sum + reflected(c, node, *hit, x, size);
       node.report.end(*hit, x.toPrev, grey(1), "pass", f);

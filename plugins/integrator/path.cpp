@@ -28,7 +28,6 @@ struct Path {
   Real sceneSize = 0;
   PathReport report;
 
-  Footprint region() const noexcept { return footprint ? footprint->footprint() : Footprint{}; }
   void chance(Real probability) noexcept {
     if (footprint) footprint->chance(probability);
   }
@@ -105,7 +104,7 @@ class PathIntegrator final : public Integrator {
       }
       if (path.footprint) path.footprint->arrive(path.ray.direction, *hit, path.sceneSize);
       radiance += path.throughput * metLight(c.scene, *hit, path.drawn);
-      x = c.scene.shade(*hit, -path.ray.direction, path.region(), buffer);
+      x = c.scene.shade(*hit, -path.ray.direction, regionAt(c.scene, *hit, path.footprint), buffer);
       const std::uint32_t dim = dimension::vertex(edge - 1) + dimension::kOpacity;
       // Layers beyond the first have numbers of their own, far from those of any vertex.
       if (x.opacity >= 1) return hit;
@@ -131,14 +130,16 @@ class PathIntegrator final : public Integrator {
       return false;
     }
     path.report.scatter(s, x.toPrev, path.throughput, *next, path.footprint);
-    if (path.footprint) path.footprint->scatter(s, x, *next, numbers);
-    path.report.left(path.footprint);
     path.throughput *= next->weight;
     path.flux *= next->local.weight;
     path.drawn = {s.position, next->local.specular ? kInfinity : next->local.pdf};
     path.ray = spawnRay(s, next->toNext);
-    return !isBlack(path.throughput) &&
-           (edge < kRouletteFrom || survives(path, c.sampler.number(dim + dimension::kRoulette)));
+    if (isBlack(path.throughput)) return false;
+    if (edge >= kRouletteFrom && !survives(path, c.sampler.number(dim + dimension::kRoulette)))
+      return false;
+    if (path.footprint) path.footprint->scatter(s, x, *next, numbers);
+    path.report.left(path.footprint);
+    return true;
   }
 
   /// Russian roulette by what is left of the flux.

@@ -113,17 +113,18 @@ TEST_CASE("reduction keeps the covariance through later events", "[footprint]") 
     const auto unit = [&](std::uint32_t dim) { return uniformCap(s.pair(dim), -1).d; };
     const Vec3 n = unit(0), dir = unit(2);
     D full;
-    std::vector<Real> weights;
+    Four weights[4] = {};
     for (std::uint32_t j = 0; j < 10; ++j) {
       full.append(tangent(n, s.pair(10 + 6 * j)), tangent(dir, s.pair(12 + 6 * j)),
                   s.number(14 + 6 * j));
-      weights.push_back(Real(0.2) + s.number(15 + 6 * j));
+      weights[j / 4][j % 4] = Real(0.2) + s.number(15 + 6 * j);
     }
     D weighted = full, small = full;
     for (int j = 0; j < 10; ++j)
-      weighted.set(j, weights[j] * full.dVertex(j), weights[j] * full.dDirection(j),
-                   weights[j] * full.gradient(j));
-    reduce(small, n, dir, weights.data(), true);
+      weighted.set(j, weights[j / 4][j % 4] * full.dVertex(j),
+                   weights[j / 4][j % 4] * full.dDirection(j),
+                   weights[j / 4][j % 4] * full.gradient(j));
+    reduce(small, n, dir, weights, true);
     REQUIRE(small.size() == 5);
     // Travel on to some other surface, then compare all second moments there.
     Vec3 n2 = unit(100);
@@ -153,7 +154,7 @@ TEST_CASE("reduction of a pinhole's two differentials has rank two", "[footprint
   j.dDirection[0] = {Real(0.01), 0, 0}, j.dDirection[1] = {0, Real(0.02), 0};
   d.begin(j, 2);
   d.transfer({0, 0, 1}, 5, {0, 0, -1}, 1e6);
-  const Real ones[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+  const Four one{1, 1, 1, 1}, ones[2] = {one, one};
   reduce(d, {0, 0, -1}, {0, 0, 1}, ones, false);
   CHECK(d.size() == 2);
   CHECK(length(d.dVertex(0)) + length(d.dVertex(1)) == Approx(0.15));

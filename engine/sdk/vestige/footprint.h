@@ -36,14 +36,16 @@ class PathFootprint {
  public:
   /// A path from the camera.
   void begin(const PathContext& c, const FootprintSettings& settings) noexcept {
-    begin(c.jacobian, c.cameraVariables, c.sampler.index(), c.declaredSamples, settings);
+    begin(c.jacobian, c.cameraVariables, c.sampler.index(), c.declaredSamples, settings,
+          settings.deltas.limit < kInfinity || c.wantsFootprint || c.record);
     leaving_ = c.ray.direction;
   }
   /// `index`: of the sample in its pixel; `declared`: samples a pixel, particles of all lights; 0
-  /// if open ended.
+  /// if open ended. A limit needs the gradient; without either it need not be followed.
   void begin(const RayJacobian& ray, int variables, std::uint64_t index, std::uint64_t declared,
-             const FootprintSettings& settings) noexcept {
+             const FootprintSettings& settings, bool followsGradient = true) noexcept {
     settings_ = settings;
+    followsGradient_ = followsGradient;
     differentials_.begin(ray, variables);
     count_.begin(index, declared, variables);
     const Real share = commonDelta(settings.deltas, count_);
@@ -61,13 +63,13 @@ class PathFootprint {
     motion_ = surfaceMotion(s, direction);
   }
 
-  /// The region around the vertex, in world space and in uv.
+  /// The region around the vertex, in world space and in uv: two vectors, full length (pigment.h).
   Footprint footprint() const noexcept {
     if (!settings_.isOn()) return {};
     const Frame f = Frame::around(normal_);
-    const Vectors v = vectors(f);
-    const Region r =
-        settings_.shape == RegionShape::representative ? representative(v.all()) : ellipse(v.all());
+    const Region r = settings_.shape == RegionShape::representative
+                         ? representative(vectors(f).all())
+                         : factor(covariance(f.s, f.t, &Differentials<Lanes>::verticesAlong));
     const auto world = [&](Vec2 p) { return p.x * f.s + p.y * f.t; };
     Footprint result{{world(r.a), world(r.b)}, {}};
     for (const int i : {0, 1})
@@ -78,12 +80,7 @@ class PathFootprint {
   /// The same for the direction of the ray that left the last surface: two vectors across it.
   void directions(Vec3 spread[2]) const noexcept {
     const Frame f = Frame::around(leaving_);
-    Covariance m;
-    for (int j = 0; j < differentials_.size(); ++j) {
-      const Vec3 d = delta(j) * differentials_.dDirection(j);
-      m.add({dot(d, f.s), dot(d, f.t)});
-    }
-    const Region r = ellipse(m);
+    const Region r = factor(covariance(f.s, f.t, &Differentials<Lanes>::directionsAlong));
     spread[0] = r.a.x * f.s + r.a.y * f.t, spread[1] = r.b.x * f.s + r.b.y * f.t;
   }
 
@@ -97,8 +94,11 @@ class PathFootprint {
                Strata strata = {}) noexcept {
     if (differentials_.size() > Lanes - 2) reduceNow();
     const int before = differentials_.size();
+    LogGradient log;
+    const bool steepens = followsGradient_ && !drawn.local.specular;
+    if (steepens) log = x.brdf->logGradient(x.point, drawn.local.toNext);
     differentials_.scatter(event(s, x, drawn.toNext), x.brdf->sampleDerivatives(x.point, numbers),
-                           x.brdf->logGradient(x.point, drawn.local.toNext), drawn.local.specular);
+                           steepens ? &log : nullptr, drawn.local.specular);
     leaving_ = drawn.toNext;
     count_.chance(drawn.local.lobeChance);
     count_.split(strata.u * strata.v);
@@ -154,6 +154,19 @@ class PathFootprint {
     return {x.frame, direction_, leaving, frameMotion(s, motion_, x.frame)};
   }
 
+  /// Of all differential vectors in the plane of two directions.
+  template <class Along>
+  Covariance covariance(Vec3 s, Vec3 t, Along along) const noexcept {
+    Four xx{}, xy{}, yy{};
+    for (int b = 0; b < differentials_.blocks(); ++b) {
+      const auto v = (differentials_.*along)(b, s, t);
+      const Four delta = deltas(b), x = delta * v.x, y = delta * v.y;
+      xx += x * x, xy += x * y, yy += y * y;
+    }
+    const auto sum = [](const Four& f) { return (f[0] + f[1]) + (f[2] + f[3]); };
+    return {sum(xx), sum(xy), sum(yy)};
+  }
+
   /// Differential vectors, delta multiplied in, in the plane of a frame.
   struct Vectors {
     Vec2 list[Lanes];
@@ -173,9 +186,9 @@ class PathFootprint {
 
   /// Frozen deltas go into the columns, which then count whole; common ones stay outside.
   void reduceNow() noexcept {
-    Real weights[Lanes];
-    for (int j = 0; j < Lanes; ++j) weights[j] = isFrozen() ? frozen_[j] : Real(1);
-    reduce(differentials_, normal_, direction_, weights, std::isfinite(settings_.deltas.limit));
+    Four weights[Lanes / 4];
+    for (int j = 0; j < Lanes; ++j) weights[j / 4][j % 4] = isFrozen() ? frozen_[j] : Real(1);
+    reduce(differentials_, normal_, direction_, weights, followsGradient_);
     for (int j = 0; j < Lanes; ++j) frozen_[j] = 1;
   }
 
@@ -184,6 +197,7 @@ class PathFootprint {
   PathCount count_;
   FootprintSettings settings_;
   SurfaceMotion motion_;
+  bool followsGradient_ = false;
   Vec3 normal_, direction_;  ///< of the surface arrived at, and D
   Vec3 leaving_;             ///< the ray under way
 };

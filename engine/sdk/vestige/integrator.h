@@ -92,6 +92,8 @@ class SceneView {
 
   /// Whether any material looks something up over a footprint. If not, paths need carry none.
   virtual bool usesFootprints() const noexcept = 0;
+  /// ... and whether that of this surface does.
+  virtual bool usesFootprint(const Surface& surface) const noexcept = 0;
   /// Texels that one unit of uv spans in the finest texture of a surface; <0, 0>: it has none.
   virtual Vec2 texels(const Surface& surface) const noexcept = 0;
 

@@ -11,6 +11,13 @@ inline bool carriesFootprint(const PathContext& c, const FootprintSettings& sett
   return settings.isOn() && (c.wantsFootprint || c.record || c.scene.usesFootprints());
 }
 
+/// The region that shade() is to look up: nothing where nothing there asks, or none is carried.
+template <int Lanes>
+Footprint regionAt(const SceneView& scene, const Surface& s,
+                   const PathFootprint<Lanes>* f) noexcept {
+  return f && scene.usesFootprint(s) ? f->footprint() : Footprint{};
+}
+
 /// Diameter of everything finite; infinite where there is nothing finite.
 inline Real sizeOf(const SceneView& scene) noexcept {
   const Bounds b = scene.bounds();
@@ -24,6 +31,27 @@ inline Real sideOf(const Footprint& f) noexcept {
 /// The same in texels.
 inline Real texelSideOf(const Footprint& f, Vec2 texels) noexcept {
   return std::sqrt(std::abs(cross(f.dUv[0], f.dUv[1])) * texels.x * texels.y);
+}
+
+/// The same ellipse by its axes, the longer first: for people to read.
+inline Footprint principal(const Footprint& f) noexcept {
+  const Vec3 n = cross(f.dP[0], f.dP[1]);
+  const Frame frame = Frame::around(lengthSquared(n) > 0 ? normalize(n) : Vec3{0, 0, 1});
+  const auto flat = [&](Vec3 v) { return Vec2{dot(v, frame.s), dot(v, frame.t)}; };
+  Covariance m;
+  m.add(flat(f.dP[0])), m.add(flat(f.dP[1]));
+  const Real det = cross(flat(f.dP[0]), flat(f.dP[1]));
+  if (det == 0) return f;  // a line, or a point
+  const Region r = ellipse(m);
+  Footprint result;
+  const Vec2 axes[2] = {r.a, r.b};
+  for (int i = 0; i < 2; ++i) {
+    result.dP[i] = axes[i].x * frame.s + axes[i].y * frame.t;
+    // The same sum of the two vectors, in uv.
+    const Real a = cross(axes[i], flat(f.dP[1])) / det, b = cross(flat(f.dP[0]), axes[i]) / det;
+    result.dUv[i] = a * f.dUv[0] + b * f.dUv[1];
+  }
+  return result;
 }
 
 class PathReport {
@@ -84,7 +112,7 @@ class PathReport {
       d.gradient[j] = f->differentials().gradient(j);
       d.delta[j] = f->delta(j);
     }
-    d.count = f->count(), d.footprint = f->footprint(), d.area = f->area();
+    d.count = f->count(), d.footprint = principal(f->footprint()), d.area = f->area();
     return v;
   }
 

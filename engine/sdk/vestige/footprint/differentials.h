@@ -145,18 +145,23 @@ class Differentials {
   FourVec2 verticesAlong(int b, Vec3 s, Vec3 t) const noexcept {
     return {detail::dot(s, v_[b]), detail::dot(t, v_[b])};
   }
+  /// g of four numbers from 4 b on.
+  Four gradients(int b) const noexcept { return g_[b]; }
+  /// dD likewise.
+  FourVec2 directionsAlong(int b, Vec3 s, Vec3 t) const noexcept {
+    return {detail::dot(s, d_[b]), detail::dot(t, d_[b])};
+  }
   int blocks() const noexcept { return (size_ + 3) / 4; }
   /// Of four numbers: the bound after the gradient's limit [PD01 Eq. 14] and the width of a sphere:
   /// a differential vector longer than that means nothing [MATH 2.5]. A gradient of zero limits
   /// nothing.
   Four deltas(int b, Four bound, Real limit) const noexcept {
-    const Four steep = g_[b] < 0 ? -g_[b] : g_[b];
     Four d = bound;
-    for (int i = 0; i < 4; ++i) {
-      if (d[i] * steep[i] > limit) d[i] = limit / steep[i];
-      if (d[i] * d[i] * turn_[b][i] > 1) d[i] = 1 / std::sqrt(turn_[b][i]);
+    if (limit < kInfinity) {
+      const Four steep = g_[b] < 0 ? -g_[b] : g_[b];
+      d = d * steep > limit ? limit / steep : d;
     }
-    return d;
+    return d < widest_[b] ? d : widest_[b];
   }
 
   /// Starts with the numbers of a camera, or of a light's emission.
@@ -184,11 +189,12 @@ class Differentials {
   /// Through an event at fixed random numbers: chain rule on every differential, then, unless
   /// specular, the two numbers of this event are appended [PD01 Eq. 4, 5; MATH 1.5 to 1.10].
   /// `jacobian` and `log` are the BRDF's, local; the cosine at the surface is accounted for here.
-  /// Specular events leave g alone: their weight has no cosine, and chance follows Fresnel's term.
+  /// Without `log` g stays as it is: where nobody asks for it, and at specular events, whose weight
+  /// has no cosine and whose chance follows Fresnel's term.
   ///
   /// The frame turns by omega = N x dN + tau N; seen from it the path arrives from
   /// dp = F^T(-dD + omega x D), and leaves at dD' = omega x D' + F dPrev dp (DESIGN 3.2, MATH 1.7).
-  void scatter(const ScatterEvent& e, const ScatterJacobian& jacobian, const LogGradient& log,
+  void scatter(const ScatterEvent& e, const ScatterJacobian& jacobian, const LogGradient* log,
                bool specular) noexcept {
     using namespace detail;
     const Real cosine = 1 / clampedCosine(e);
@@ -205,16 +211,15 @@ class Differentials {
       if (!e.motion.isStill) d = d + cross(omega, e.leaving);
       d = d - scaled(dot(e.leaving, d), e.leaving);  // D' stays a unit vector
       d_[b] = d;
-      const Four turn = lengthSquared(d);
-      turn_[b] = turn > turn_[b] ? turn : turn_[b];
-      if (specular) continue;
+      narrow(widest_[b], lengthSquared(d));
+      if (!log) continue;
       // d(log f) = gPrev . dp + gNext . F^T(dD' - omega x D'); the cosine: (dN . D' + N . dD') /
       // cos.
-      g_[b] += dot(log.dPrev, dPrev) + dot(log.dNext, dNext) +
+      g_[b] += dot(log->dPrev, dPrev) + dot(log->dNext, dNext) +
                cosine * (dot(e.leaving, dN) + dot(e.frame.n, d));
     }
     if (specular) return;
-    const Vec3 gNext = e.frame.toWorld(log.dNext) + cosine * e.frame.n;
+    const Vec3 gNext = log ? e.frame.toWorld(log->dNext) + cosine * e.frame.n : Vec3{};
     for (const Vec3 column : jacobian.du.c) {
       Vec3 d = e.frame.toWorld(column);
       d -= dot(d, e.leaving) * e.leaving;
@@ -244,7 +249,7 @@ class Differentials {
     if (size_ % 4 == 0) {  // a new block: its other lanes rest at zero
       constexpr Four zero{};
       v_[size_ / 4] = d_[size_ / 4] = {zero, zero, zero};
-      g_[size_ / 4] = turn_[size_ / 4] = zero;
+      g_[size_ / 4] = zero, widest_[size_ / 4] = zero + 1;
     }
     set(size_++, dV, dD, g);
   }
@@ -252,7 +257,7 @@ class Differentials {
     const int b = j / 4, i = j % 4;
     v_[b].x[i] = dV.x, v_[b].y[i] = dV.y, v_[b].z[i] = dV.z;
     d_[b].x[i] = dD.x, d_[b].y[i] = dD.y, d_[b].z[i] = dD.z;
-    g_[b][i] = g, turn_[b][i] = lengthSquared(dD);
+    g_[b][i] = g, widest_[b][i] = 1 / std::sqrt(std::max(lengthSquared(dD), Real(1)));
   }
   void clear() noexcept { size_ = 0; }
 
@@ -262,13 +267,22 @@ class Differentials {
     return {f.x[j % 4], f.y[j % 4], f.z[j % 4]};
   }
 
+  static bool anyAbove(const Four& a, Real limit) noexcept {
+    return a[0] > limit || a[1] > limit || a[2] > limit || a[3] > limit;
+  }
   static void shorten(detail::Four3& v, Real limit) noexcept {
     const Four l = detail::lengthSquared(v);
+    if (!anyAbove(l, limit * limit)) return;
     for (int i = 0; i < 4; ++i) {
       if (!(l[i] > limit * limit)) continue;
       const Real k = limit / std::sqrt(l[i]);
       v.x[i] *= k, v.y[i] *= k, v.z[i] *= k;
     }
+  }
+  static void narrow(Four& widest, const Four& turn) noexcept {
+    if (!anyAbove(turn, 1)) return;
+    for (int i = 0; i < 4; ++i)
+      if (turn[i] > 1) widest[i] = std::min(widest[i], 1 / std::sqrt(turn[i]));
   }
 
   static Real clampedCosine(const ScatterEvent& e) noexcept {
@@ -290,7 +304,7 @@ class Differentials {
 
   detail::Four3 v_[Lanes / 4], d_[Lanes / 4];
   Four g_[Lanes / 4];
-  Four turn_[Lanes / 4];  ///< longest |dD|^2 so far
+  Four widest_[Lanes / 4];  ///< the most that delta may be: 1 over the longest |dD| so far, or 1
   int size_ = 0;
 };
 

@@ -36,11 +36,16 @@ inline Region ellipse(const Covariance& m) noexcept {
   return {std::sqrt(major) * e, std::sqrt(minor) * Vec2{-e.y, e.x}};
 }
 
-/// The ellipse of differential vectors.
-inline Region ellipse(std::span<const Vec2> v) noexcept {
-  Covariance m;
-  for (const Vec2 x : v) m.add(x);
-  return ellipse(m);
+/// Two vectors with a a^T + b b^T = m, the cheapest such: not the axes of the ellipse, but sides of
+/// a parallelogram that it fills.
+inline Region factor(const Covariance& m) noexcept {
+  const bool swapped = m.xx < m.yy;
+  const Real large = swapped ? m.yy : m.xx, small = swapped ? m.xx : m.yy;
+  if (!(large > 0)) return {};
+  const Real root = std::sqrt(large), across = m.xy / root;
+  const Real rest = safeSqrt(small - across * across);
+  if (swapped) return {{across, root}, {rest, 0}};
+  return {{root, across}, {0, rest}};
 }
 
 /// Exact area of the Minkowski sum of the vectors: a polygon of 2 K corners [MATH 2.1].

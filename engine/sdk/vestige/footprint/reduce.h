@@ -8,61 +8,71 @@
 namespace vestige {
 namespace detail {
 
-/// Rows: position (2), direction (2), gradient (1).
-inline constexpr int kState = 5;
-using Moments = std::array<std::array<Real, kState>, kState>;
-
-/// Columns of a factor L of the positive semidefinite S = L L^T, largest pivots first; what is
-/// below rounding is left out. Returns how many columns there are.
-inline int factor(Moments s, int size, Moments& l) noexcept {
+/// Lower triangle of L with L L^T = S for a positive semidefinite S of unit traces, in place. What
+/// is below rounding becomes a column of zeros.
+template <int N>
+void factor(Real (&s)[N][N]) noexcept {
   constexpr Real kLeastPivot = 64 * std::numeric_limits<Real>::epsilon();
-  int rank = 0;
-  for (; rank < size; ++rank) {
-    int pivot = 0;
-    for (int i = 1; i < size; ++i)
-      if (s[i][i] > s[pivot][pivot]) pivot = i;
-    if (!(s[pivot][pivot] > kLeastPivot)) break;
-    const Real root = 1 / std::sqrt(s[pivot][pivot]);
-    for (int i = 0; i < size; ++i) l[rank][i] = s[i][pivot] * root;
-    for (int i = 0; i < size; ++i)
-      for (int j = 0; j < size; ++j) s[i][j] -= l[rank][i] * l[rank][j];
-    s[pivot][pivot] = 0;
+  for (int k = 0; k < N; ++k) {
+    const Real pivot = s[k][k];
+    const Real inverse = pivot > kLeastPivot ? 1 / std::sqrt(pivot) : Real(0);
+    for (int i = k; i < N; ++i) s[i][k] *= inverse;
+    for (int j = k + 1; j < N; ++j)
+      for (int i = j; i < N; ++i) s[i][j] -= s[i][k] * s[j][k];
   }
-  return rank;
+}
+
+/// Rows: position (2), direction (2), gradient (1 or none).
+template <int N, int Lanes>
+void reduceTo(Differentials<Lanes>& d, const Frame& fv, const Frame& fd,
+              const Four* weights) noexcept {
+  Four rows[N][Lanes / 4] = {};
+  for (int b = 0; b < d.blocks(); ++b) {
+    const auto v = d.verticesAlong(b, fv.s, fv.t), w = d.directionsAlong(b, fd.s, fd.t);
+    rows[0][b] = weights[b] * v.x, rows[1][b] = weights[b] * v.y;
+    rows[2][b] = weights[b] * w.x, rows[3][b] = weights[b] * w.y;
+    if constexpr (N == 5) rows[4][b] = weights[b] * d.gradients(b);
+  }
+  Real s[N][N];
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k <= i; ++k) {
+      Four sum = rows[i][0] * rows[k][0];
+      for (int b = 1; b < d.blocks(); ++b) sum += rows[i][b] * rows[k][b];
+      s[i][k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+  // Positions, directions and gradients have units of their own: each block to unit trace.
+  Real unit[N];
+  for (int i = 0; i < N; ++i) {
+    const int first = i & ~1, second = std::min(first + 1, N - 1);
+    const Real trace = s[first][first] + (second > first ? s[second][second] : Real(0));
+    unit[i] = trace > 0 ? std::sqrt(trace) : Real(1);
+  }
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k <= i; ++k) s[i][k] /= unit[i] * unit[k];
+  factor(s);
+  d.clear();
+  for (int k = 0; k < N; ++k) {
+    Real c[5] = {};
+    bool isZero = true;
+    for (int i = k; i < N; ++i) c[i] = s[i][k] * unit[i], isZero = isZero && c[i] == 0;
+    if (!isZero) d.append(c[0] * fv.s + c[1] * fv.t, c[2] * fd.s + c[3] * fd.t, c[4]);
+  }
 }
 
 }  // namespace detail
 
 /// Replaces the differentials at a vertex with geometric normal n on a path that arrives along
 /// `direction` (or leaves along it: whatever dDirection is tangent to). weights[j] multiplies
-/// number j: 1 where deltas are common to all, its own delta where they are frozen. Without
-/// `gradient`, g becomes 0.
+/// number j, one for every lane: 1 where deltas are common to all, its own delta where they are
+/// frozen. Without `gradient`, g becomes 0.
 template <int Lanes>
-void reduce(Differentials<Lanes>& d, Vec3 n, Vec3 direction, const Real* weights,
+void reduce(Differentials<Lanes>& d, Vec3 n, Vec3 direction, const Four* weights,
             bool gradient) noexcept {
-  using namespace detail;
   const Frame fv = Frame::around(n), fd = Frame::around(direction);
-  Real rows[Lanes][kState], trace[3] = {};
-  for (int j = 0; j < d.size(); ++j) {
-    const Vec3 v = weights[j] * d.dVertex(j), w = weights[j] * d.dDirection(j);
-    const Real r[kState] = {dot(v, fv.s), dot(v, fv.t), dot(w, fd.s), dot(w, fd.t),
-                            gradient ? weights[j] * d.gradient(j) : 0};
-    for (int i = 0; i < kState; ++i) rows[j][i] = r[i], trace[i / 2] += r[i] * r[i];
-  }
-  // Positions, directions and gradients have units of their own: each block to unit trace.
-  Real unit[kState];
-  for (int i = 0; i < kState; ++i) unit[i] = trace[i / 2] > 0 ? std::sqrt(trace[i / 2]) : Real(1);
-  Moments s{}, l{};
-  for (int j = 0; j < d.size(); ++j)
-    for (int i = 0; i < kState; ++i)
-      for (int k = 0; k < kState; ++k) s[i][k] += rows[j][i] / unit[i] * (rows[j][k] / unit[k]);
-  const int rank = factor(s, gradient ? kState : kState - 1, l);
-  d.clear();
-  for (int j = 0; j < rank; ++j) {
-    Real c[kState];
-    for (int i = 0; i < kState; ++i) c[i] = l[j][i] * unit[i];
-    d.append(c[0] * fv.s + c[1] * fv.t, c[2] * fd.s + c[3] * fd.t, c[4]);
-  }
+  if (gradient)
+    detail::reduceTo<5>(d, fv, fd, weights);
+  else
+    detail::reduceTo<4>(d, fv, fd, weights);
 }
 
 }  // namespace vestige
