@@ -146,15 +146,17 @@ std::vector<std::vector<std::string>> numberNames(const std::vector<PathVertex>&
   std::vector<std::string> names;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const std::size_t size = std::size_t(vertices[k].differentials.size);
-    if (k == 0)
+    const bool drew = k > 0 && vertices[k - 1].scattered && !vertices[k - 1].scattered->specular;
+    const std::size_t added = drew ? 2 : 0;
+    if (k == 0) {
       names.assign(camera, camera + std::min<std::size_t>(size, 4));
-    else if (size == names.size() + 2)
-      for (const char* u : {"u", "v"}) names.push_back(fmt::format("vertex {} {}", k, u));
-    else if (size != names.size()) {
-      names.clear();
-      for (std::size_t j = 0; j + 2 < size; ++j) names.push_back(fmt::format("mixed {}", j + 1));
-      for (const char* u : {"u", "v"}) names.push_back(fmt::format("vertex {} {}", k, u));
+    } else if (size != names.size() + added && size >= added) {
+      names.clear();  // reduced on the way
+      for (std::size_t j = 0; j + added < size; ++j)
+        names.push_back(fmt::format("mixed {}", j + 1));
     }
+    if (drew)
+      for (const char* u : {"u", "v"}) names.push_back(fmt::format("vertex {} {}", k, u));
     all.push_back(names);
   }
   return all;

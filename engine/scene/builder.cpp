@@ -228,7 +228,7 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
     m.constants[i] = {{mean.colour.r, mean.colour.g, mean.colour.b, mean.alpha}};
     const bool isReal = rows[i].type == ValueType::real;
     // What enters the light linearly may be averaged; a normal or a roughness may not [MATH T8].
-    const bool isFiltered = i == m.opacity || (!isReal && i != m.normalMap);
+    const bool isFiltered = i == m.opacity || (!isReal && i != m.normalMap && !rows[i].pointwise);
     m.textured.push_back({i, isReal, isFiltered, Real(rows[i].low), Real(rows[i].high), *p});
     m.usesFootprint |= isFiltered;
     if (i == m.normalMap) m.hasNormalMap = true;

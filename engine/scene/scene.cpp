@@ -50,6 +50,7 @@ void Scene::Impl::commit() {
   }
   lightTable.build(lightList);
   for (const Material& m : materials) hasTextures |= m.usesFootprint;
+  for (const int i : infinite) hasTextures |= lightList[std::size_t(i)]->usesSpread();
 }
 
 Real Scene::Impl::transmittance(const Ray& ray) const noexcept {

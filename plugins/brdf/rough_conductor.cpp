@@ -18,16 +18,17 @@ class RoughConductor final : public Brdf {
   enum Input { kAlpha, kAnisotropy, kEta, kK, kSpecular };
 
   static Schema schema() {
-    return {.kind = "brdf",
-            .name = "rough_conductor",
-            .summary = "metal with GGX roughness",
-            .inputs = {real("alpha", 0.1).range(0, 1).doc("GGX width: 0.01 polished, 1 rough"),
-                       real("anisotropy", 0).range(0, 1).doc("0 round, 1 brushed along u"),
-                       rgb("eta", 0).range(0, 100).doc("real part of the refractive index"),
-                       rgb("k", 0).range(0, 100).doc("imaginary part; gold 3.98 2.39 1.60"),
-                       rgb("specular", 1)
-                           .range(0, 1)
-                           .doc("reflected fraction at normal incidence, where eta and k are 0")}};
+    return {
+        .kind = "brdf",
+        .name = "rough_conductor",
+        .summary = "metal with GGX roughness",
+        .inputs = {real("alpha", 0.1).range(0, 1).doc("GGX width: 0.01 polished, 1 rough"),
+                   real("anisotropy", 0).range(0, 1).doc("0 round, 1 brushed along u"),
+                   rgb("eta", 0).range(0, 100).curved().doc("real part of the refractive index"),
+                   rgb("k", 0).range(0, 100).curved().doc("imaginary part; gold 3.98 2.39 1.60"),
+                   rgb("specular", 1)
+                       .range(0, 1)
+                       .doc("reflected fraction at normal incidence, where eta and k are 0")}};
   }
 
   Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {

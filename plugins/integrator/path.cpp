@@ -134,12 +134,13 @@ class PathIntegrator final : public Integrator {
     path.flux *= next->local.weight;
     path.drawn = {s.position, next->local.specular ? kInfinity : next->local.pdf};
     path.ray = spawnRay(s, next->toNext);
-    if (isBlack(path.throughput)) return false;
-    if (edge >= kRouletteFrom && !survives(path, c.sampler.number(dim + dimension::kRoulette)))
-      return false;
-    if (path.footprint) path.footprint->scatter(s, x, *next, numbers);
+    const bool goesOn =
+        !isBlack(path.throughput) &&
+        (edge < kRouletteFrom || survives(path, c.sampler.number(dim + dimension::kRoulette)));
+    if (path.footprint && (goesOn || path.report.isWaiting()))
+      path.footprint->scatter(s, x, *next, numbers);
     path.report.left(path.footprint);
-    return true;
+    return goesOn;
   }
 
   /// Russian roulette by what is left of the flux.

@@ -125,6 +125,8 @@ class Environment final : public Light {
             .dDirection = {Vec3{}, Vec3{}, -d->du.c[0], -d->du.c[1]}};
   }
 
+  bool usesSpread() const noexcept override { return image_ != nullptr; }
+
   Rgb power() const noexcept override { return disk_.area() * flux_; }
 
  private:

@@ -96,16 +96,6 @@ TEST_CASE("the ellipse has the vectors' covariance", "[footprint]") {
   CHECK(dot(ellipse(Covariance{}).a, ellipse(Covariance{}).a) == 0);
 }
 
-TEST_CASE("bounds clamp half-axes and leave what lies between alone", "[footprint]") {
-  const Region r{{3, 0}, {0, Real(0.25)}};
-  const Region b = bounded(r, Real(0.5), 2);
-  CHECK(std::sqrt(dot(b.a, b.a)) == Approx(2));
-  CHECK(std::sqrt(dot(b.b, b.b)) == Approx(0.5));
-  const Region same = bounded(r, Real(0.1), 10);
-  CHECK(std::abs(same.a.x) == Approx(3));
-  CHECK(std::abs(same.b.y) == Approx(0.25));
-}
-
 TEST_CASE("reduction keeps the covariance through later events", "[footprint]") {
   using D = Differentials<16>;
   for (std::uint32_t seed = 0; seed < 100; ++seed) {

@@ -67,9 +67,7 @@ class PathFootprint {
   Footprint footprint() const noexcept {
     if (!settings_.isOn()) return {};
     const Frame f = Frame::around(normal_);
-    const Region r = settings_.shape == RegionShape::representative
-                         ? representative(vectors(f).all())
-                         : factor(covariance(f.s, f.t, &Differentials<Lanes>::verticesAlong));
+    const Region r = region(f);
     const auto world = [&](Vec2 p) { return p.x * f.s + p.y * f.t; };
     Footprint result{{world(r.a), world(r.b)}, {}};
     for (const int i : {0, 1})
@@ -80,7 +78,7 @@ class PathFootprint {
   /// The same for the direction of the ray that left the last surface: two vectors across it.
   void directions(Vec3 spread[2]) const noexcept {
     const Frame f = Frame::around(leaving_);
-    const Region r = factor(covariance(f.s, f.t, &Differentials<Lanes>::directionsAlong));
+    const Region r = ellipse(directionCovariance(f));
     spread[0] = r.a.x * f.s + r.a.y * f.t, spread[1] = r.b.x * f.s + r.b.y * f.t;
   }
 
@@ -92,7 +90,7 @@ class PathFootprint {
   /// no room.
   void scatter(const Surface& s, const Interaction& x, const Scatter& drawn, ScatterNumbers numbers,
                Strata strata = {}) noexcept {
-    if (differentials_.size() > Lanes - 2) reduceNow();
+    if (!drawn.local.specular && differentials_.size() > Lanes - 2) reduceNow();
     const int before = differentials_.size();
     LogGradient log;
     const bool steepens = followsGradient_ && !drawn.local.specular;
@@ -154,17 +152,28 @@ class PathFootprint {
     return {x.frame, direction_, leaving, frameMotion(s, motion_, x.frame)};
   }
 
-  /// Of all differential vectors in the plane of two directions.
-  template <class Along>
-  Covariance covariance(Vec3 s, Vec3 t, Along along) const noexcept {
-    Four xx{}, xy{}, yy{};
+  /// Of dD, delta multiplied in, across the ray.
+  Covariance directionCovariance(const Frame& f) const noexcept {
+    Covariance m;
     for (int b = 0; b < differentials_.blocks(); ++b) {
-      const auto v = (differentials_.*along)(b, s, t);
-      const Four delta = deltas(b), x = delta * v.x, y = delta * v.y;
-      xx += x * x, xy += x * y, yy += y * y;
+      const auto d = differentials_.directionsAlong(b, f.s, f.t);
+      m.add(deltas(b), d.x, d.y);
     }
-    const auto sum = [](const Four& f) { return (f[0] + f[1]) + (f[2] + f[3]); };
-    return {sum(xx), sum(xy), sum(yy)};
+    return m;
+  }
+
+  /// Two numbers are their own parallelogram; more become the ellipse, or PD01's pair.
+  Region region(const Frame& f) const noexcept {
+    if (differentials_.size() == 2 || settings_.shape == RegionShape::representative) {
+      const Vectors v = vectors(f);
+      return v.size == 2 ? Region{v.list[0], v.list[1]} : representative(v.all());
+    }
+    Covariance m;
+    for (int b = 0; b < differentials_.blocks(); ++b) {
+      const auto v = differentials_.verticesAlong(b, f.s, f.t);
+      m.add(deltas(b), v.x, v.y);
+    }
+    return ellipse(m);
   }
 
   /// Differential vectors, delta multiplied in, in the plane of a frame.
@@ -184,11 +193,13 @@ class PathFootprint {
     return r;
   }
 
-  /// Frozen deltas go into the columns, which then count whole; common ones stay outside.
+  /// Frozen deltas go into the columns, which then count whole; common ones stay outside. Merged
+  /// numbers keep a gradient only where a limit goes by it: asking for it must not change a
+  /// picture.
   void reduceNow() noexcept {
     Four weights[Lanes / 4];
     for (int j = 0; j < Lanes; ++j) weights[j / 4][j % 4] = isFrozen() ? frozen_[j] : Real(1);
-    reduce(differentials_, normal_, direction_, weights, followsGradient_);
+    reduce(differentials_, normal_, direction_, weights, settings_.deltas.limit < kInfinity);
     for (int j = 0; j < Lanes; ++j) frozen_[j] = 1;
   }
 

@@ -90,7 +90,8 @@ class SceneView {
   /// Indices into lights() of those at infinity.
   virtual std::span<const int> infiniteLights() const noexcept = 0;
 
-  /// Whether any material looks something up over a footprint. If not, paths need carry none.
+  /// Whether any material or light looks something up over a footprint. If not, paths need carry
+  /// none.
   virtual bool usesFootprints() const noexcept = 0;
   /// ... and whether that of this surface does.
   virtual bool usesFootprint(const Surface& surface) const noexcept = 0;

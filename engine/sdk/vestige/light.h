@@ -94,6 +94,9 @@ class Light {
   virtual std::optional<Particle> emit(EmissionNumbers u) const noexcept = 0;
   virtual RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept = 0;
 
+  /// Whether eval() looks at LightHit::spread: paths then carry differentials for it.
+  virtual bool usesSpread() const noexcept { return false; }
+
   /// Estimate of the whole flux, W: how often the light is chosen.
   virtual Rgb power() const noexcept = 0;
 };

@@ -23,6 +23,9 @@ inline constexpr Real sqr(Real x) noexcept { return x * x; }
 /// sqrt that takes what rounding leaves below zero as zero.
 inline Real safeSqrt(Real x) noexcept { return std::sqrt(std::max(Real(0), x)); }
 
+/// Four numbers side by side: one register.
+typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
+
 // ---------------------------------------------------------------- vectors
 struct Vec2 {
   Real x{}, y{};

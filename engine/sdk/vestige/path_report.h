@@ -72,6 +72,8 @@ class PathReport {
     aovs_->footprintTexels = texelSideOf(region, scene_->texels(s));
     isWaiting_ = true;
   }
+  /// Whether an AOV needs what the footprint says behind the scattering.
+  bool isWaiting() const noexcept { return isWaiting_; }
   /// ... and now the footprint knows.
   template <int Lanes>
   void left(const PathFootprint<Lanes>* f) noexcept {

@@ -38,8 +38,9 @@ struct Parameter {
   bool required = false;    ///< a scene that leaves it out is refused
   bool positional = false;  ///< may stand without its name, in the order of the rows
   bool texturable = false;  ///< takes a pigment in place of a constant
-  std::string unit;         ///< "degrees", "scene units", "W/sr", ...; "" is a plain number
-  std::string help;         ///< one line
+  bool pointwise = false;  ///< ... which is not averaged over footprints: light is not linear in it
+  std::string unit;        ///< "degrees", "scene units", "W/sr", ...; "" is a plain number
+  std::string help;        ///< one line
   std::vector<std::string> choices;
   std::string blockKind;
 
@@ -47,6 +48,7 @@ struct Parameter {
   Parameter&& positive() && { return low = 0, openLow = true, std::move(*this); }
   Parameter&& need() && { return required = true, initial = {}, std::move(*this); }
   Parameter&& place() && { return positional = true, std::move(*this); }
+  Parameter&& curved() && { return pointwise = true, std::move(*this); }
   Parameter&& in(std::string u) && { return unit = std::move(u), std::move(*this); }
   Parameter&& doc(std::string h) && { return help = std::move(h), std::move(*this); }
   Parameter&& unset() && { return initial = {}, std::move(*this); }

@@ -92,9 +92,6 @@ struct ScatterEvent {
   FrameMotion motion;
 };
 
-/// Four numbers side by side: one register.
-typedef Real Four __attribute__((vector_size(4 * sizeof(Real))));
-
 namespace detail {
 
 /// Vectors of four differentials at once, and the little algebra that the chain rule needs.

@@ -10,7 +10,7 @@
 
 namespace vestige {
 
-/// Two vectors that stand for all: half-axes of an ellipse, or sides of a parallelogram.
+/// Two vectors that stand for all, full length: axes of an ellipse, or sides of a parallelogram.
 struct Region {
   Vec2 a, b;
 };
@@ -19,9 +19,16 @@ struct Region {
 struct Covariance {
   Real xx = 0, xy = 0, yy = 0;
   void add(Vec2 v) noexcept { xx += v.x * v.x, xy += v.x * v.y, yy += v.y * v.y; }
+  /// Four vectors <x, y>, each times its delta.
+  void add(const Four& delta, const Four& vx, const Four& vy) noexcept {
+    const Four x = delta * vx, y = delta * vy, a = x * x, b = x * y, c = y * y;
+    xx += (a[0] + a[1]) + (a[2] + a[3]);
+    xy += (b[0] + b[1]) + (b[2] + b[3]);
+    yy += (c[0] + c[1]) + (c[2] + c[3]);
+  }
 };
 
-/// Principal half-axes, a the longer one: a a^T + b b^T = m. For two vectors the same ellipse as
+/// Principal axes, a the longer one: a a^T + b b^T = m. For two vectors the same ellipse as
 /// theirs. Free of order, rotation and sign of the vectors [MATH 2.3].
 inline Region ellipse(const Covariance& m) noexcept {
   const Real mean = Real(0.5) * (m.xx + m.yy), half = Real(0.5) * (m.xx - m.yy);
@@ -34,18 +41,6 @@ inline Region ellipse(const Covariance& m) noexcept {
   const Real l = std::sqrt(dot(e, e));
   e = l > 0 ? e * (1 / l) : Vec2{1, 0};
   return {std::sqrt(major) * e, std::sqrt(minor) * Vec2{-e.y, e.x}};
-}
-
-/// Two vectors with a a^T + b b^T = m, the cheapest such: not the axes of the ellipse, but sides of
-/// a parallelogram that it fills.
-inline Region factor(const Covariance& m) noexcept {
-  const bool swapped = m.xx < m.yy;
-  const Real large = swapped ? m.yy : m.xx, small = swapped ? m.xx : m.yy;
-  if (!(large > 0)) return {};
-  const Real root = std::sqrt(large), across = m.xy / root;
-  const Real rest = safeSqrt(small - across * across);
-  if (swapped) return {{across, root}, {rest, 0}};
-  return {{root, across}, {0, rest}};
 }
 
 /// Exact area of the Minkowski sum of the vectors: a polygon of 2 K corners [MATH 2.1].
@@ -96,17 +91,6 @@ inline Region representative(std::span<const Vec2> v, bool rescale = true) noexc
   if (!rescale || !(area > 0)) return r;
   const Real k = std::sqrt(polygonArea(v) / area);
   return {k * r.a, k * r.b};
-}
-
-/// Half-axes no longer than `most` and no shorter than `least`: a maximum, never a sum, so that a
-/// footprint below a texel gives exactly the point's value [MATH 2.5].
-inline Region bounded(const Region& r, Real least, Real most) noexcept {
-  Covariance m;
-  m.add(r.a), m.add(r.b);
-  const Region e = ellipse(m);
-  const Real la = std::sqrt(dot(e.a, e.a)), lb = std::sqrt(dot(e.b, e.b));
-  const Vec2 da = la > 0 ? e.a * (1 / la) : Vec2{1, 0}, db{-da.y, da.x};
-  return {std::clamp(la, least, most) * da, std::clamp(lb, least, most) * db};
 }
 
 }  // namespace vestige

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// What footprints do to pictures, and what they must not do.
+#include <cmath>
+#include <vector>
+
+#include "images/picture.h"
+
+using namespace vestige;
+using namespace vestige::test;
+
+namespace {
+
+/// A small sky with a bright spot, as a file.
+std::string sky() {
+  Image image{16, 8, {"R", "G", "B"}, {}, {}};
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 16; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.pixels.push_back(0.3f + 0.1f * float(c) + (x == 5 && y == 2 ? 3.f : 0.f));
+  const std::string file = (scratch() / "sky.exr").string();
+  std::string error;
+  INFO(error);
+  REQUIRE(writeImage(file, image, {}, error));
+  return file;
+}
+
+/// Balls of all kinds of lobes over a floor that shows them a pattern.
+std::string balls(const std::string& pigment, const std::string& integrator,
+                  const std::string& light) {
+  return "camera pinhole { location <0, 1.6, -5> look_at <0, 0.9, 0> angle 40 }\n"
+         "film { resolution <48, 32> }\n"
+         "integrator " +
+         integrator + "\n" + light + "\nplane { y, 0 brdf lambert { diffuse pigment " + pigment +
+         " } }\n"
+         "sphere { <-1.3, 0.9, 0>, 0.8 brdf phong { specular rgb 0.8 exponent 40 } }\n"
+         "sphere { <0.4, 0.7, -0.6>, 0.6 brdf glass { ior 1.5 } }\n"
+         "sphere { <1.6, 0.9, 0.6>, 0.8 brdf rough_conductor { alpha 0.2 } }\n";
+}
+const std::string kSun =
+    "light distant { direction <0.3, -1, 0.4> irradiance rgb 2 }\n"
+    "light environment { radiance rgb 0.4 }";
+const std::string kChecker = "checker { rgb 0.1, rgb 0.9 scale 0.25 }";
+
+bool isSame(const Image& a, const Image& b) {
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        if (a.at(x, y)[c] != b.at(x, y)[c]) return false;
+  return a.width == b.width && a.height == b.height;
+}
+
+double meanSquare(const Image& a, const Image& b) {
+  double sum = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      for (int c = 0; c < 3; ++c) sum += std::pow(double(a.at(x, y)[c]) - double(b.at(x, y)[c]), 2);
+  return sum / (3.0 * a.width * a.height);
+}
+
+double meanOf(const Image& a) { return (mean(a, 0) + mean(a, 1) + mean(a, 2)) / 3; }
+
+}  // namespace
+
+TEST_CASE("asking for AOVs does not change the picture", "[footprint]") {
+  const std::string lit = "light environment { map \"" + sky() + "\" }";
+  for (const char* pigment : {"checker { rgb 0.1, rgb 0.9 scale 0.25 }", "solid"}) {
+    std::string scene = balls(pigment, "path { depth 12 }", lit);
+    if (std::string(pigment) == "solid")  // nothing but the sky is looked up
+      scene.replace(scene.find("pigment solid"), 13, "rgb 0.5");
+    const Image plain = renderText(scene, "--spp 2");
+    for (const char* aov : {"footprint", "footprint.texels", "gradient", "normal", "all"})
+      CHECK(isSame(plain, renderText(scene, std::string("--spp 2 --aov ") + aov)));
+  }
+}
+
+TEST_CASE("where nothing is textured footprints change no bit", "[footprint]") {
+  const std::string scene = "--spp 2 --width 48 --height 48 --footprint ";
+  const Image none = renderFile(source("examples/cornell.scene"), scene + "none");
+  for (const char* bound : {"pixel", "local", "global", "safe", "gradient", "paper"})
+    CHECK(isSame(none, renderFile(source("examples/cornell.scene"), scene + bound)));
+}
+
+TEST_CASE("ray trees give the same picture as paths", "[footprint]") {
+  const Image path = renderText(balls(kChecker, "path { depth 5 }", kSun), "--spp 1024");
+  for (const char* tree :
+       {"distributed { split 4 depth 5 } ", "distributed { split 6 depth 5 light_samples 2 }",
+        "distributed { split 1 depth 5 }"}) {
+    // As many rays for each: 256 camera rays of a tree with four, 96 with six, 1024 without.
+    const char* spp = std::string(tree).find("split 1") != std::string::npos   ? "--spp 1024"
+                      : std::string(tree).find("split 4") != std::string::npos ? "--spp 64"
+                                                                               : "--spp 32";
+    for (const char* bound : {"none", "safe"}) {
+      const Image found =
+          renderText(balls(kChecker, tree, kSun), std::string(spp) + " --footprint " + bound);
+      INFO(tree << ", " << bound);
+      for (int c = 0; c < 3; ++c) CHECK(mean(found, c) == Approx(mean(path, c)).epsilon(0.006));
+      CHECK(std::sqrt(meanSquare(found, path)) < 0.06 * meanOf(path));
+    }
+  }
+}
+
+TEST_CASE("filtered pictures are the same for any number of threads", "[footprint]") {
+  for (const char* integrator : {"path { depth 8 }", "distributed { split 4 depth 4 }"}) {
+    const std::string scene = balls(kChecker, integrator, kSun);
+    CHECK(
+        isSame(renderText(scene, "--spp 3 --threads 1"), renderText(scene, "--spp 3 --threads 2")));
+  }
+}
+
+TEST_CASE("few samples of a fine texture are quieter when filtered", "[footprint]") {
+  const std::string fine = "checker { rgb 0.1, rgb 0.9 scale 0.05 }";
+  const Image reference =
+      renderText(balls(fine, "path { depth 5 }", kSun), "--spp 4096 --footprint none");
+  const auto error = [&](const std::string& integrator, const std::string& bound) {
+    double sum = 0;
+    for (int seed = 1; seed <= 4; ++seed)
+      sum +=
+          meanSquare(renderText(balls(fine, integrator, kSun),
+                                "--spp 1 --footprint " + bound + " --seed " + std::to_string(seed)),
+                     reference);
+    return sum / 4;
+  };
+  const std::string tree = "distributed { split 4 depth 4 }";
+  const double none = error(tree, "none");
+  for (const char* bound : {"local", "safe", "gradient"}) {
+    INFO(bound);
+    CHECK(error(tree, bound) < 0.7 * none);
+  }
+  CHECK(error("path { depth 5 }", "safe") < 0.9 * error("path { depth 5 }", "none"));
+}
+
+TEST_CASE("the default is never worse than no footprints", "[slow][footprint]") {
+  const char* const textures[] = {
+      "gradient { rgb 0.1, rgb 0.9 direction <0.3, 0, 0> }", "checker { rgb 0.1, rgb 0.9 scale 0.7 }",
+      "checker { rgb 0.1, rgb 0.9 scale 0.2 }", "checker { rgb 0.1, rgb 0.9 scale 0.03 }",
+      "granite { rgb 0.1, rgb 0.9 scale 0.5 }"};
+  for (const char* texture : textures)
+    for (const char* integrator : {"path { depth 4 }", "distributed { split 4 depth 3 }"}) {
+      const bool isTree = std::string(integrator).find("distributed") == 0;
+      const std::string scene = balls(texture, integrator, kSun);
+      const Image reference = renderText(
+          scene, std::string("--footprint none --seed 99 --spp ") + (isTree ? "4096" : "16384"));
+      const double grace = std::pow(0.005 * meanOf(reference), 2);
+      for (const int spp : {1, 4, 16, 64, 256}) {
+        double none = 0, safe = 0;
+        const int seeds = spp > 64 ? 4 : 16;
+        for (int seed = 1; seed <= seeds; ++seed) {
+          const std::string how =
+              "--spp " + std::to_string(spp) + " --seed " + std::to_string(seed);
+          none += meanSquare(renderText(scene, how + " --footprint none"), reference) / seeds;
+          safe += meanSquare(renderText(scene, how + " --footprint safe"), reference) / seeds;
+        }
+        std::printf("never worse;%s;%s;%d;%.4g\n", texture, integrator, spp, none / safe);
+        INFO(texture << ", " << integrator << ", " << spp << ": none " << none << ", safe "
+                     << safe);
+        CHECK(safe <= none + grace);
+      }
+    }
+}
