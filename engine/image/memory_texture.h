@@ -44,20 +44,20 @@ inline Neighbours neighbours(Real t, std::int32_t n, Wrap wrap) noexcept {
   return {first, second, share};
 }
 
-using Four = float __attribute__((vector_size(16)));
+using FourFloats = float __attribute__((vector_size(16)));
 
 /// Four numbers of a pyramid, those behind a texel's channels to be ignored.
-inline Four four(const float* at) noexcept {
-  Four x;
+inline FourFloats four(const float* at) noexcept {
+  FourFloats x;
   std::memcpy(&x, at, sizeof(x));
   return x;
 }
-inline Four four(const std::uint16_t* at) noexcept {
+inline FourFloats four(const std::uint16_t* at) noexcept {
   using Codes = std::uint16_t __attribute__((vector_size(8)));
   using Integers = std::int32_t __attribute__((vector_size(16)));
   Codes x;
   std::memcpy(&x, at, sizeof(x));
-  return __builtin_convertvector(__builtin_convertvector(x, Integers), Four);
+  return __builtin_convertvector(__builtin_convertvector(x, Integers), FourFloats);
 }
 
 /// A picture held in memory with its pyramid. Up to a texel bilinear at full resolution, beyond two
@@ -134,7 +134,7 @@ class MemoryTexture final : public Texture {
       return averaged(
           uv, level, bump, 0, [&](std::int32_t y) { return row(y); },
           [&](const Code* at) {
-            Four x{};
+            FourFloats x{};
             for (int c = 0; c < kChannels; ++c) x[c] = decoded(at, c);
             return x;
           },
@@ -159,7 +159,7 @@ class MemoryTexture final : public Texture {
     const Real cx = uv.x * Real(level.width) - Real(0.5);
     const Real cy = uv.y * Real(level.height) - Real(0.5);
     float sum = 0;
-    Four channels{};
+    FourFloats channels{};
     const std::int32_t last = floorInt(cy + Real(bump.reachY));
     for (std::int32_t y = -floorInt(Real(bump.reachY) - cy); y <= last; ++y) {
       const auto dy = float(Real(y) - cy);

@@ -18,7 +18,7 @@ SceneDesc mirrors() {
   const auto ball = [&](Vec3 centre, double radius, const std::vector<Block>& wears) {
     return makeBlock(
         "shape", "sphere",
-        {{"center", vec(centre.x, centre.y, centre.z)}, {"radius", numberValue(radius)}}, wears);
+        {{"centre", vec(centre.x, centre.y, centre.z)}, {"radius", numberValue(radius)}}, wears);
   };
   s.blocks = {
       makeBlock(

@@ -83,13 +83,13 @@ inline SceneDesc everything(const std::string& folder) {
       makeBlock("pigment", "checker", {{"first", map}, {"second", map}}));
   const auto unit = numberValue(1);
   s.blocks.push_back(
-      placed(makeBlock("shape", "sphere", {{"center", vec(0, 0, 0)}, {"radius", unit}},
+      placed(makeBlock("shape", "sphere", {{"centre", vec(0, 0, 0)}, {"radius", unit}},
                        {brdf("rough_conductor", {{"alpha", numberValue(0.3)},
                                                  {"anisotropy", numberValue(0.4)},
                                                  {"normal_map", tilted}})}),
              at(2.0, 2.1, 1.0, 0.7, 1.3, 0.2)));
   s.blocks.push_back(
-      placed(makeBlock("shape", "sphere", {{"center", vec(0, 0, 0)}, {"radius", unit}}, glossy),
+      placed(makeBlock("shape", "sphere", {{"centre", vec(0, 0, 0)}, {"radius", unit}}, glossy),
              at(-1.3, 0.6, 0.5, 0.9)));
   s.blocks.push_back(placed(makeBlock("shape", "mesh", {{"file", textValue(folder + "/ball.obj")}},
                                       {brdf("rough_dielectric", {{"alpha", numberValue(0.15)},
@@ -110,7 +110,7 @@ inline SceneDesc everything(const std::string& folder) {
                              {{"alpha", numberValue(0.2)}, {"anisotropy", numberValue(0.5)}})}),
              at(1.2, -1.3, 0.7, 0.7, 1.2, -0.4)));
   s.blocks.push_back(
-      placed(makeBlock("shape", "sphere", {{"center", vec(0, 0, 0)}, {"radius", unit}},
+      placed(makeBlock("shape", "sphere", {{"centre", vec(0, 0, 0)}, {"radius", unit}},
                        {brdf("glass", {{"ior", numberValue(1.5)}})}),
              at(0, 1.7, 1.2, 0.7, 0.6, 0.3)));
   s.blocks.push_back(placed(
@@ -124,7 +124,21 @@ inline SceneDesc everything(const std::string& folder) {
   return s;
 }
 
+/// A setting that no schema knows would be left out in silence.
+inline void checkNames(const Block& block) {
+  const Schema* schema = registry().schema(block.kind, block.plugin);
+  INFO(block.kind << ' ' << block.plugin);
+  REQUIRE(schema);
+  for (const Setting& s : block.settings) {
+    INFO(s.name);
+    CHECK(schema->find(s.name));
+    if (s.value.block) checkNames(*s.value.block);
+  }
+  for (const Block& child : block.children) checkNames(child);
+}
+
 inline std::unique_ptr<Scene> built(const SceneDesc& description) {
+  for (const Block& block : description.blocks) checkNames(block);
   Diagnostics diagnostics;
   auto scene = buildScene(description, registry(), {}, diagnostics);
   for (const Diagnostic& d : diagnostics.list()) UNSCOPED_INFO(d.message);
