@@ -44,7 +44,7 @@ class Glass final : public Brdf {
 
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {
-    return {.du = {}, .dPrev = turn(p, n.lobe < lobes(p).reflectChance).dPrev};
+    return {.du = {}, .dPrev = turn(p, n.lobe < lobes(p).reflectChance).dPrev()};
   }
 
   LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }

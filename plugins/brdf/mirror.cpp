@@ -36,7 +36,7 @@ class Mirror final : public Brdf {
   Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 0; }
 
   ScatterJacobian sampleDerivatives(const ScatterPoint& p, ScatterNumbers) const noexcept override {
-    return {.du = {}, .dPrev = reflectAt(p.toPrev, kNormal).dPrev};
+    return {.du = {}, .dPrev = reflectAt(p.toPrev, kNormal).dPrev()};
   }
 
   LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }

@@ -122,7 +122,7 @@ class Phong final : public Brdf {
     if (lobe == kRefracted && refractedCosine(p.toPrev.z, eta(p)) < 0) return {};
     const Turned t =
         lobe == kReflected ? reflectAt(p.toPrev, normal) : refractAt(p.toPrev, normal, eta(p));
-    return {t.direction, t.dPrev};
+    return {t.direction, t.dPrev()};
   }
 
   /// The lobe's colour, scaled so that both together give back no more than they get.

@@ -81,9 +81,11 @@ class Principled final : public Brdf {
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {
     const Model m(p);
-    const Drawn d = draw(m, n);
-    if (d.lobe == kDiffuse) return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
-    return {.du = byNumbers(d.turned, d.normal), .dPrev = byPrev(d.turned, d.normal)};
+    if (n.lobe < m.diffuseChance) return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
+    const VisibleNormal v = m.ggx.sampleVisibleDerivatives(m.prev, n.u);
+    const Way way = choose(m, v.h, n.lobe);
+    return leavingDerivatives(
+        way.lobe == kReflected ? reflectAt(m.prev, v.h) : refractAt(m.prev, v.h, m.eta), v);
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
@@ -127,9 +129,7 @@ class Principled final : public Brdf {
     Lobe lobe;
     Real chance;
     Vec3 toNext;
-    VisibleNormal normal;  ///< these three: unless diffuse
-    Turned turned;
-    Facet facet;
+    Facet facet;  ///< unless diffuse
   };
 
   /// The inputs at one point, put into the terms of the formula above.
@@ -220,23 +220,31 @@ class Principled final : public Brdf {
     }
   };
 
-  /// `lobe` picks matt or facets; u the direction or the facet's normal; what is left of `lobe`
-  /// whether the facet reflects. Chance 0: absorbed.
+  /// What a facet does, and the chance of it among facets.
+  struct Way {
+    Lobe lobe;
+    Real chance;  ///< 0: it absorbs
+  };
+
+  /// Decided by what is left of the number that picked facets.
+  static Way choose(const Model& m, Vec3 h, Real lobe) noexcept {
+    const Real rest = (lobe - m.diffuseChance) / (1 - m.diffuseChance);
+    const Chances chance = m.chances(std::max(dot(m.prev, h), Real(0)));
+    if (rest < chance.reflect) return {kReflected, chance.reflect};
+    return {kRefracted, chance.refract};
+  }
+
+  /// `lobe` picks matt or facets; u the direction or the facet's normal. Chance 0: absorbed.
   static Drawn draw(const Model& m, ScatterNumbers n) noexcept {
-    if (n.lobe < m.diffuseChance)
-      return {kDiffuse, m.diffuseChance, cosineHemisphere(n.u).d, {}, {}, {}};
-    const Real facets = 1 - m.diffuseChance, rest = (n.lobe - m.diffuseChance) / facets;
-    const VisibleNormal v = m.ggx.sampleVisible(m.prev, n.u);
-    const Chances chance = m.chances(std::max(dot(m.prev, v.h), Real(0)));
-    const auto drawn = [&](Lobe lobe, Real share, const Turned& t, const Facet& f) {
-      return Drawn{lobe, facets * share, t.direction, v, t, f};
-    };
-    if (rest < chance.reflect)
-      return drawn(kReflected, chance.reflect, reflectAt(m.prev, v.h),
-                   reflectingFacet(m.prev, v.h));
-    if (!(chance.refract > 0)) return {};
-    return drawn(kRefracted, chance.refract, refractAt(m.prev, v.h, m.eta),
-                 refractingFacet(m.prev, v.h, m.eta));
+    if (n.lobe < m.diffuseChance) return {kDiffuse, m.diffuseChance, cosineHemisphere(n.u).d, {}};
+    const Vec3 h = m.ggx.sampleVisible(m.prev, n.u);
+    const Way way = choose(m, h, n.lobe);
+    const Real chance = (1 - m.diffuseChance) * way.chance;
+    if (way.lobe == kReflected)
+      return {kReflected, chance, reflectAt(m.prev, h).direction, reflectingFacet(m.prev, h)};
+    if (!(chance > 0)) return {};
+    return {kRefracted, chance, refractAt(m.prev, h, m.eta).direction,
+            refractingFacet(m.prev, h, m.eta)};
   }
 };
 

@@ -40,7 +40,7 @@ class RoughConductor final : public Brdf {
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     const Ggx surface = ggx(p);
-    const Vec3 h = surface.sampleVisible(p.toPrev, n.u).h;
+    const Vec3 h = surface.sampleVisible(p.toPrev, n.u);
     const Vec3 toNext = reflectAt(p.toPrev, h).direction;
     const Facet f = reflectingFacet(p.toPrev, h);
     const Real density = facetPdf(surface, f, p.toPrev, toNext);
@@ -61,9 +61,8 @@ class RoughConductor final : public Brdf {
 
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {
-    const VisibleNormal v = ggx(p).sampleVisible(p.toPrev, n.u);
-    const Turned t = reflectAt(p.toPrev, v.h);
-    return {.du = byNumbers(t, v), .dPrev = byPrev(t, v)};
+    const VisibleNormal v = ggx(p).sampleVisibleDerivatives(p.toPrev, n.u);
+    return leavingDerivatives(reflectAt(p.toPrev, v.h), v);
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {

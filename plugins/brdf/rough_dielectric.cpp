@@ -40,7 +40,7 @@ class RoughDielectric final : public Brdf {
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     const Ggx surface = ggx(p);
-    const Vec3 h = surface.sampleVisible(p.toPrev, n.u).h;
+    const Vec3 h = surface.sampleVisible(p.toPrev, n.u);
     const Choice choice = choose(p, h, n.lobe);
     const Vec3 toNext = turn(p, h, choice.reflects).direction;
     const Facet f =
@@ -65,9 +65,8 @@ class RoughDielectric final : public Brdf {
 
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {
-    const VisibleNormal v = ggx(p).sampleVisible(p.toPrev, n.u);
-    const Turned t = turn(p, v.h, choose(p, v.h, n.lobe).reflects);
-    return {.du = byNumbers(t, v), .dPrev = byPrev(t, v)};
+    const VisibleNormal v = ggx(p).sampleVisibleDerivatives(p.toPrev, n.u);
+    return leavingDerivatives(turn(p, v.h, choose(p, v.h, n.lobe).reflects), v);
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {

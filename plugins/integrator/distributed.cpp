@@ -99,7 +99,7 @@ class Distributed final : public Integrator {
       const std::optional<Surface> hit = c.scene.intersect(node.ray);
       if (!hit) return sum + escaped(c, node);
       PathFootprint<>* f = node.footprint;
-      if (f) f->arrive(node.ray.direction, *hit, size);
+      if (f) f->arrive(*hit, size);
       sum += metLight(c.scene, *hit, node.drawn);
       InputBuffer buffer;
       const Interaction x =

@@ -102,7 +102,7 @@ class PathIntegrator final : public Integrator {
         path.report.escape(path.ray.direction, path.throughput);
         return std::nullopt;
       }
-      if (path.footprint) path.footprint->arrive(path.ray.direction, *hit, path.sceneSize);
+      if (path.footprint) path.footprint->arrive(*hit, path.sceneSize);
       radiance += path.throughput * metLight(c.scene, *hit, path.drawn);
       x = c.scene.shade(*hit, -path.ray.direction, regionAt(c.scene, *hit, path.footprint), buffer);
       const std::uint32_t dim = dimension::vertex(edge - 1) + dimension::kOpacity;

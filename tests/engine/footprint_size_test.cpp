@@ -55,10 +55,10 @@ std::vector<Landed> land(const Scene& scene, int samples, int vertices,
       isWanted &= path[std::size_t(k)].surface.object == objects[std::size_t(k)];
     if (!isWanted) continue;
     PathFootprint<8> f;
-    f.begin({}, 0, std::uint64_t(i), std::uint64_t(samples), settings);
+    f.begin({}, path[0].direction, 0, std::uint64_t(i), std::uint64_t(samples), settings);
     for (int k = 0; k < vertices; ++k) {
       const TracedVertex& v = path[std::size_t(k)];
-      f.arrive(v.direction, v.surface, Real(1e9));
+      f.arrive(v.surface, Real(1e9));
       if (k + 1 == vertices) break;
       const ScatterNumbers numbers{n.lobes[std::size_t(k)], n.pairs[std::size_t(k + 2)]};
       f.scatter(v.surface, v.x, {normalize(v.x.frame.toWorld(v.drawn->toNext)), {}, *v.drawn},

@@ -102,24 +102,21 @@ TEST_CASE("reduction keeps the covariance through later events", "[footprint]") 
     const Sampler s(1, seed, 0, 9);
     const auto unit = [&](std::uint32_t dim) { return uniformCap(s.pair(dim), -1).d; };
     const Vec3 n = unit(0), dir = unit(2);
-    D full;
+    D small, weighted;
+    for (D* d : {&small, &weighted}) d->begin({}, dir, 0);
     Four weights[4] = {};
     for (std::uint32_t j = 0; j < 10; ++j) {
-      full.append(tangent(n, s.pair(10 + 6 * j)), tangent(dir, s.pair(12 + 6 * j)),
-                  s.number(14 + 6 * j));
-      weights[j / 4][j % 4] = Real(0.2) + s.number(15 + 6 * j);
+      const Vec3 dV = tangent(n, s.pair(10 + 6 * j)), dD = tangent(dir, s.pair(12 + 6 * j));
+      const Real g = s.number(14 + 6 * j), weight = Real(0.2) + s.number(15 + 6 * j);
+      small.append(dV, dD, g), weighted.append(weight * dV, weight * dD, weight * g);
+      weights[j / 4][j % 4] = weight;
     }
-    D weighted = full, small = full;
-    for (int j = 0; j < 10; ++j)
-      weighted.set(j, weights[j / 4][j % 4] * full.dVertex(j),
-                   weights[j / 4][j % 4] * full.dDirection(j),
-                   weights[j / 4][j % 4] * full.gradient(j));
-    reduce(small, n, dir, weights, true);
+    reduce(small, weights, true);
     REQUIRE(small.size() == 5);
     // Travel on to some other surface, then compare all second moments there.
     Vec3 n2 = unit(100);
     if (std::abs(dot(n2, dir)) < Real(0.2)) n2 = dir;
-    for (D* d : {&weighted, &small}) d->transfer(dir, Real(1.7), n2, 1e6);
+    for (D* d : {&weighted, &small}) d->transfer(Real(1.7), n2, 1e6);
     const auto moment = [](const D& d, auto f, auto g) {
       double sum = 0;
       for (int j = 0; j < d.size(); ++j) sum += double(f(d, j)) * double(g(d, j));
@@ -142,10 +139,10 @@ TEST_CASE("reduction of a pinhole's two differentials has rank two", "[footprint
   Differentials<8> d;
   RayJacobian j;
   j.dDirection[0] = {Real(0.01), 0, 0}, j.dDirection[1] = {0, Real(0.02), 0};
-  d.begin(j, 2);
-  d.transfer({0, 0, 1}, 5, {0, 0, -1}, 1e6);
+  d.begin(j, {0, 0, 1}, 2);
+  d.transfer(5, {0, 0, -1}, 1e6);
   const Four one{1, 1, 1, 1}, ones[2] = {one, one};
-  reduce(d, {0, 0, -1}, {0, 0, 1}, ones, false);
+  reduce(d, ones, false);
   CHECK(d.size() == 2);
   CHECK(length(d.dVertex(0)) + length(d.dVertex(1)) == Approx(0.15));
 }
@@ -170,6 +167,7 @@ TEST_CASE("deltas of each bound", "[footprint]") {
 
   // The gradient's limit, and the width of a sphere.
   Differentials<4> d;
+  d.begin({}, {0, 0, 1}, 0);
   d.append({}, {Real(0.1), 0, 0}, 10);
   d.append({}, {Real(0.1), 0, 0}, -10);
   d.append({}, {Real(0.1), 0, 0}, 0);

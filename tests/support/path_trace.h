@@ -47,7 +47,8 @@ class PathTracer {
     const auto start = scene_.camera().sample(film);
     if (!start) return path;
     PathFootprint<16> footprint;
-    footprint.begin(scene_.camera().sampleDerivatives(film), scene_.camera().variables(), 0, 1, {});
+    footprint.begin(scene_.camera().sampleDerivatives(film), start->direction,
+                    scene_.camera().variables(), 0, 1, {});
     Ray ray{start->origin, start->direction, 0, kInfinity};
     Real logF = 0;
     for (int k = 0; k < vertices; ++k) {
@@ -57,7 +58,7 @@ class PathTracer {
       TracedVertex& v = path.emplace_back();
       v.surface = *hit, v.direction = ray.direction, v.logF = logF;
       v.x = scene_.view().shade(*hit, -ray.direction, {}, v.buffer);
-      footprint.arrive(ray.direction, *hit, Real(1e9));
+      footprint.arrive(*hit, Real(1e9));
       if (carried) carried->push_back(footprint.differentials());
       if (footprints) footprints->push_back(footprint);
       const ScatterNumbers numbers{n.lobes[std::size_t(k)], n.pairs[std::size_t(k + 2)]};

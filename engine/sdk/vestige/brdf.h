@@ -55,6 +55,12 @@ struct ScatterJacobian {
   Mat3 dPrev;  ///< [3 x 3], per radian of toPrev; applied to tangents of toPrev only
 };
 
+/// From four derivatives: by u.x, by u.y, and by turning toPrev along s and t of a frame around it.
+inline ScatterJacobian scatterJacobian(const Frame& toPrev, const Four3& d) noexcept {
+  return {.du = {column(d, 0), column(d, 1)},
+          .dPrev = outer(column(d, 2), toPrev.s) + outer(column(d, 3), toPrev.t)};
+}
+
 /// Gradient of log f (luminance of f): the relative change of the contribution, 1/rad [PD01 Eq.
 /// 12].
 struct LogGradient {

@@ -24,11 +24,10 @@ class DualBrdf : public Brdf {
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {
     const Frame f = Frame::around(p.toPrev);
-    const TVec3<Dual> toPrev = moving(p.toPrev, f.s, f.t, 0);
-    const TVec2<Dual> u{Dual::variable(n.u.x, 2), Dual::variable(n.u.y, 3)};
+    const TVec2<Dual> u{Dual::variable(n.u.x, 0), Dual::variable(n.u.y, 1)};
+    const TVec3<Dual> toPrev = moving(p.toPrev, f.s, f.t, 2);
     const TVec3<Dual> d = self().direction(p, toPrev, n.lobe, u);
-    return {.du = {derivative(d, 2), derivative(d, 3)},
-            .dPrev = outer(derivative(d, 0), f.s) + outer(derivative(d, 1), f.t)};
+    return scatterJacobian(f, {d.x.d, d.y.d, d.z.d});
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {

@@ -4,7 +4,7 @@
 //
 //     PathFootprint<> f;
 //     f.begin(context, settings);
-//     f.arrive(ray.direction, surface, sceneSize);           // MATH 1.3, 1.4
+//     f.arrive(surface, sceneSize);                          // MATH 1.3, 1.4
 //     shade(surface, toPrev, f.footprint(), buffer);         // textures see the footprint
 //     f.scatter(surface, interaction, drawn, numbers);       // MATH 1.5 to 1.10
 //     f.chance(survival);                                    // roulette, opacity
@@ -36,31 +36,32 @@ class PathFootprint {
  public:
   /// A path from the camera.
   void begin(const PathContext& c, const FootprintSettings& settings) noexcept {
-    begin(c.jacobian, c.cameraVariables, c.sampler.index(), c.declaredSamples, settings,
-          settings.deltas.limit < kInfinity || c.wantsFootprint || c.record);
-    leaving_ = c.ray.direction;
+    begin(c.jacobian, c.ray.direction, c.cameraVariables, c.sampler.index(), c.declaredSamples,
+          settings, settings.deltas.limit < kInfinity || c.wantsFootprint || c.record);
   }
   /// `index`: of the sample in its pixel; `declared`: samples a pixel, particles of all lights; 0
   /// if open ended. A limit needs the gradient; without either it need not be followed.
-  void begin(const RayJacobian& ray, int variables, std::uint64_t index, std::uint64_t declared,
-             const FootprintSettings& settings, bool followsGradient = true) noexcept {
+  void begin(const RayJacobian& ray, Vec3 direction, int variables, std::uint64_t index,
+             std::uint64_t declared, const FootprintSettings& settings,
+             bool followsGradient = true) noexcept {
     settings_ = settings;
     followsGradient_ = followsGradient;
-    differentials_.begin(ray, variables);
+    differentials_.begin(ray, direction, variables);
     count_.begin(index, declared, variables);
+    if (!isFrozen()) return;
     const Real share = commonDelta(settings.deltas, count_);
-    for (int j = 0; j < Lanes; ++j) frozen_[j] = share;
     // Igehy's bound knows the film only, not the lens.
-    if (settings.deltas.bound == Bound::pixel)
-      for (int j = 2; j < Lanes; ++j) frozen_[j] = 0;
+    const Real lens = settings.deltas.bound == Bound::pixel ? 0 : share;
+    for (Four& block : frozen_) block = four(0);
+    frozen_[0] = Four{share, share, lens, lens};
   }
 
-  /// To a surface; `size` is the scene's, which no differential outgrows.
-  void arrive(Vec3 direction, const Surface& s, Real size) noexcept {
+  /// To a surface that the ray under way meets; `size` is the scene's, which no differential
+  /// outgrows.
+  void arrive(const Surface& s, Real size) noexcept {
     normal_ = s.geometricNormal;
-    direction_ = direction;
-    differentials_.transfer(direction, s.distance, s.geometricNormal, std::max(size, s.distance));
-    motion_ = surfaceMotion(s, direction);
+    differentials_.transfer(s.distance, s.geometricNormal, std::max(size, s.distance));
+    motion_.arrive(s, differentials_.direction());
   }
 
   /// The region around the vertex, in world space and in uv: two vectors, full length (pigment.h).
@@ -77,8 +78,14 @@ class PathFootprint {
 
   /// The same for the direction of the ray that left the last surface: two vectors across it.
   void directions(Vec3 spread[2]) const noexcept {
-    const Frame f = Frame::around(leaving_);
-    const Region r = ellipse(directionCovariance(f));
+    Covariance m;  // of dD, delta multiplied in, across the ray
+    const Four shared = common();
+    for (int b = 0; b < differentials_.blocks(); ++b) {
+      const auto& d = differentials_.block(b).d;
+      m.add(deltas(b, shared), d.x, d.y);
+    }
+    const Region r = ellipse(m);
+    const Frame& f = differentials_.ray();
     spread[0] = r.a.x * f.s + r.a.y * f.t, spread[1] = r.b.x * f.s + r.b.y * f.t;
   }
 
@@ -95,26 +102,27 @@ class PathFootprint {
     LogGradient log;
     const bool steepens = followsGradient_ && !drawn.local.specular;
     if (steepens) log = x.brdf->logGradient(x.point, drawn.local.toNext);
-    differentials_.scatter(event(s, x, drawn.toNext), x.brdf->sampleDerivatives(x.point, numbers),
-                           steepens ? &log : nullptr, drawn.local.specular);
-    leaving_ = drawn.toNext;
+    const FrameMotion motion(s, motion_, x.frame);
+    differentials_.scatter({x.frame, drawn.toNext, motion_, motion},
+                           x.brdf->sampleDerivatives(x.point, numbers), steepens ? &log : nullptr,
+                           drawn.local.specular);
     count_.chance(drawn.local.lobeChance);
     count_.split(strata.u * strata.v);
     if (drawn.local.specular) return;
     count_.drew(2);
-    const bool isLocal = settings_.deltas.bound == Bound::local;
+    if (settings_.deltas.bound != Bound::local) return;
     // Only a share of the split's rays are drawn from this lobe.
     const Real spread = settings_.deltas.scale / std::sqrt(drawn.local.lobeChance);
-    const auto own = [&](Real n) { return isLocal ? std::min(spread / n, Real(1)) : Real(0); };
-    if (before < Lanes) frozen_[before] = own(strata.u);
-    if (before + 1 < Lanes) frozen_[before + 1] = own(strata.v);
+    freeze(before, std::min(spread / strata.u, Real(1)));
+    freeze(before + 1, std::min(spread / strata.v, Real(1)));
   }
 
   /// What a connection to a light moves by: the light's two numbers come last.
   Differentials<Lanes + 4> connect(const Surface& s, const Interaction& x, Vec3 toLight,
                                    const LightJacobian& light,
                                    const LightLogGradient& lightLog) const noexcept {
-    return differentials_.connect(event(s, x, toLight),
+    const FrameMotion motion(s, motion_, x.frame);
+    return differentials_.connect({x.frame, toLight, motion_, motion},
                                   x.brdf->logGradient(x.point, x.frame.toLocal(toLight)), light,
                                   lightLog);
   }
@@ -126,7 +134,7 @@ class PathFootprint {
   const PathCount& count() const noexcept { return count_; }
 
   /// delta_j: the bound, then the gradient's limit, then the width of a sphere.
-  Real delta(int j) const noexcept { return deltas(j / 4)[j % 4]; }
+  Real delta(int j) const noexcept { return deltas(j / 4, common())[j % 4]; }
 
   /// The steepest relative change of the contribution with any of the numbers.
   Real steepest() const noexcept {
@@ -141,37 +149,31 @@ class PathFootprint {
     return settings_.deltas.bound == Bound::local || settings_.deltas.bound == Bound::pixel;
   }
 
-  Four deltas(int block) const noexcept {
-    const Real* own = frozen_ + 4 * block;
-    const Four bound = isFrozen() ? Four{own[0], own[1], own[2], own[3]}
-                                  : detail::four(commonDelta(settings_.deltas, count_));
-    return differentials_.deltas(block, bound, settings_.deltas.limit);
+  /// Of all numbers that have no delta of their own.
+  Four common() const noexcept {
+    return four(isFrozen() ? Real(0) : commonDelta(settings_.deltas, count_));
   }
-
-  ScatterEvent event(const Surface& s, const Interaction& x, Vec3 leaving) const noexcept {
-    return {x.frame, direction_, leaving, frameMotion(s, motion_, x.frame)};
+  Four deltas(int block, const Four& common) const noexcept {
+    return differentials_.deltas(block, isFrozen() ? frozen_[block] : common,
+                                 settings_.deltas.limit);
   }
-
-  /// Of dD, delta multiplied in, across the ray.
-  Covariance directionCovariance(const Frame& f) const noexcept {
-    Covariance m;
-    for (int b = 0; b < differentials_.blocks(); ++b) {
-      const auto d = differentials_.directionsAlong(b, f.s, f.t);
-      m.add(deltas(b), d.x, d.y);
-    }
-    return m;
+  void freeze(int j, Real delta) noexcept {
+    if (j < Lanes) frozen_[j / 4] = detail::withLane(frozen_[j / 4], j % 4, delta);
   }
 
   /// Two numbers are their own parallelogram; more become the ellipse, or PD01's pair.
   Region region(const Frame& f) const noexcept {
-    if (differentials_.size() == 2 || settings_.shape == RegionShape::representative) {
-      const Vectors v = vectors(f);
-      return v.size == 2 ? Region{v.list[0], v.list[1]} : representative(v.all());
+    const Four shared = common();
+    if (differentials_.size() == 2) {
+      const auto v = differentials_.verticesAlong(0, f.s, f.t);
+      const Four delta = deltas(0, shared), x = delta * v.x, y = delta * v.y;
+      return {{x[0], y[0]}, {x[1], y[1]}};
     }
+    if (settings_.shape == RegionShape::representative) return representative(vectors(f).all());
     Covariance m;
     for (int b = 0; b < differentials_.blocks(); ++b) {
       const auto v = differentials_.verticesAlong(b, f.s, f.t);
-      m.add(deltas(b), v.x, v.y);
+      m.add(deltas(b, shared), v.x, v.y);
     }
     return ellipse(m);
   }
@@ -185,9 +187,10 @@ class PathFootprint {
   Vectors vectors(const Frame& f) const noexcept {
     Vectors r;
     r.size = differentials_.size();
+    const Four shared = common();
     for (int b = 0; b < differentials_.blocks(); ++b) {
       const auto v = differentials_.verticesAlong(b, f.s, f.t);
-      const Four delta = deltas(b), x = delta * v.x, y = delta * v.y;
+      const Four delta = deltas(b, shared), x = delta * v.x, y = delta * v.y;
       for (int i = 0; i < 4; ++i) r.list[4 * b + i] = {x[i], y[i]};
     }
     return r;
@@ -198,19 +201,18 @@ class PathFootprint {
   /// picture.
   void reduceNow() noexcept {
     Four weights[Lanes / 4];
-    for (int j = 0; j < Lanes; ++j) weights[j / 4][j % 4] = isFrozen() ? frozen_[j] : Real(1);
-    reduce(differentials_, normal_, direction_, weights, settings_.deltas.limit < kInfinity);
-    for (int j = 0; j < Lanes; ++j) frozen_[j] = 1;
+    for (int b = 0; b < Lanes / 4; ++b) weights[b] = isFrozen() ? frozen_[b] : four(1);
+    reduce(differentials_, weights, settings_.deltas.limit < kInfinity);
+    for (Four& block : frozen_) block = four(1);
   }
 
   Differentials<Lanes> differentials_;
-  Real frozen_[Lanes] = {};
+  Four frozen_[Lanes / 4];  ///< deltas that no later event changes, where there are any
   PathCount count_;
   FootprintSettings settings_;
   SurfaceMotion motion_;
   bool followsGradient_ = false;
-  Vec3 normal_, direction_;  ///< of the surface arrived at, and D
-  Vec3 leaving_;             ///< the ray under way
+  Vec3 normal_;  ///< geometric, of the surface arrived at
 };
 
 }  // namespace vestige

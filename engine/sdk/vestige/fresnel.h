@@ -95,27 +95,36 @@ inline Fresnel fresnelSchlick(Real c, Real f0) noexcept {
   return {f0 + (1 - f0) * x2 * x2 * x, -5 * (1 - f0) * x2 * x2};
 }
 
-/// A direction that left a facet, and how it moves with the facet's normal and with prev; the
-/// matrices apply to tangents of those unit vectors.
+/// A direction that left a facet, mu normal - eta prev, and how it moves with normal and prev:
+/// mu is a function of prev . normal alone.
 struct Turned {
   Vec3 direction;
-  Mat3 dPrev, dNormal;
+  Vec3 prev, normal;
+  Real mu, slope, eta;  ///< slope: of mu by that cosine
+
+  /// For tangents of those two unit vectors, four at once.
+  Four3 moved(const Four3& dPrev, const Four3& dNormal) const noexcept {
+    const Four c = slope * (dot(normal, dPrev) + dot(prev, dNormal));
+    return {c * normal.x + mu * dNormal.x - eta * dPrev.x,
+            c * normal.y + mu * dNormal.y - eta * dPrev.y,
+            c * normal.z + mu * dNormal.z - eta * dPrev.z};
+  }
+  /// At a fixed normal.
+  Mat3 dPrev() const noexcept { return slope * outer(normal, normal) - eta * identity(); }
 };
 
 /// Mirror direction [Ige99 Eq. 14].
 inline Turned reflectAt(Vec3 prev, Vec3 normal) noexcept {
-  const Real c = dot(prev, normal);
-  return {2 * c * normal - prev, Real(2) * outer(normal, normal) - identity(),
-          2 * c * identity() + Real(2) * outer(normal, prev)};
+  const Real mu = 2 * dot(prev, normal);
+  return {mu * normal - prev, prev, normal, mu, 2, 1};
 }
 
 /// Refracted direction [Ige99 Eq. 16]. Only where reflection is not total.
 inline Turned refractAt(Vec3 prev, Vec3 normal, Real eta) noexcept {
   const Real c = dot(prev, normal), t = refractedCosine(c, eta);
   const Real mu = refractedShift(c, t, eta);
-  const Real dmu = -eta * mu / std::max(t, kMinRefractedCosine);
-  return {mu * normal - eta * prev, dmu * outer(normal, normal) - eta * identity(),
-          mu * identity() + dmu * outer(normal, prev)};
+  const Real slope = -eta * mu / std::max(t, kMinRefractedCosine);
+  return {mu * normal - eta * prev, prev, normal, mu, slope, eta};
 }
 
 }  // namespace vestige

@@ -271,6 +271,30 @@ struct Ray {
   Vec3 at(Real t) const noexcept { return origin + t * direction; }
 };
 
+// ---------------------------------------------------------------- four vectors at once
+struct Four3 {
+  Four x, y, z;
+};
+inline Four four(Real v) noexcept { return Four{v, v, v, v}; }
+inline Four3 columns(Vec3 a, Vec3 b, Vec3 c, Vec3 d) noexcept {
+  return {Four{a.x, b.x, c.x, d.x}, Four{a.y, b.y, c.y, d.y}, Four{a.z, b.z, c.z, d.z}};
+}
+inline Vec3 column(const Four3& a, int i) noexcept { return {a.x[i], a.y[i], a.z[i]}; }
+inline Four3 operator+(const Four3& a, const Four3& b) noexcept {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Four3 operator*(Real s, const Four3& a) noexcept { return {s * a.x, s * a.y, s * a.z}; }
+inline Four3 operator*(const Mat3& m, const Four3& v) noexcept {
+  return {m.c[0].x * v.x + m.c[1].x * v.y + m.c[2].x * v.z,
+          m.c[0].y * v.x + m.c[1].y * v.y + m.c[2].y * v.z,
+          m.c[0].z * v.x + m.c[1].z * v.y + m.c[2].z * v.z};
+}
+inline Four dot(Vec3 a, const Four3& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Four3 cross(Vec3 a, const Four3& b) noexcept {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Four3 cross(const Four3& a, Vec3 b) noexcept { return Real(-1) * cross(b, a); }
+
 /// How a ray's start and direction move with the numbers that chose it, per unit of each number
 /// [PD01 Sec. 2.3]. Cameras: numbers 0, 1 are the film's, 2, 3 the lens's. Emission: 0, 1 choose
 /// the point, 2, 3 the direction.

@@ -12,6 +12,7 @@
 // [DB23]  Dupuy, Benyoub. Sampling visible GGX normals with spherical caps. HPG 2023. the sampler;
 //         here with the concentric disk in place of a polar cap, whose derivative has a pole.
 #pragma once
+#include <vestige/brdf.h>
 #include <vestige/fresnel.h>
 #include <vestige/sampling.h>
 
@@ -34,12 +35,13 @@ inline Real roughInterfaceEta(Real ior, bool inside) noexcept {
 /// What of a lies across unit n. As products, since I - n n^T loses the small components of what is
 /// almost along n, and those are all that a smooth surface has.
 inline Vec3 across(Vec3 n, Vec3 a) noexcept { return cross(cross(n, a), n); }
+inline Four3 across(Vec3 n, const Four3& a) noexcept { return cross(cross(n, a), n); }
 
 /// A drawn normal and how it moves.
 struct VisibleNormal {
-  Vec3 h;      ///< unit, z >= 0, prev . h >= 0 but for rounding
-  Mat3x2 du;   ///< per unit of random number
-  Mat3 dPrev;  ///< per radian of toPrev
+  Vec3 h;       ///< unit, z >= 0, prev . h >= 0 but for rounding
+  Frame prev;   ///< around toPrev
+  Four3 moved;  ///< dh by u.x, by u.y, by turning toPrev along s and t of that frame
 };
 
 class Ggx {
@@ -57,8 +59,10 @@ class Ggx {
   /// G1(w) in [0,1], the visible fraction of the facets that face w.
   Real masking(Vec3 w) const noexcept { return shade(w) * std::abs(w.z); }
 
-  /// A normal with the density shade(prev) (prev . h) D(h), per steradian of h.
-  VisibleNormal sampleVisible(Vec3 prev, Vec2 u) const noexcept;
+  /// A normal with the density shade(prev) (prev . h) D(h), per steradian of h: unit, z >= 0,
+  /// prev . h >= 0 but for rounding.
+  Vec3 sampleVisible(Vec3 prev, Vec2 u) const noexcept { return draw(prev, u).h; }
+  VisibleNormal sampleVisibleDerivatives(Vec3 prev, Vec2 u) const noexcept;
 
   /// Gradient of log D by h, across h.
   Vec3 logDensityGradient(Vec3 h) const noexcept {
@@ -75,39 +79,47 @@ class Ggx {
  private:
   Real stretched(Vec3 h) const noexcept { return sqr(h.x / x_) + sqr(h.y / y_) + sqr(h.z); }
   Real slant(Vec3 w) const noexcept { return std::sqrt(sqr(x_ * w.x) + sqr(y_ * w.y) + sqr(w.z)); }
+  Vec3 stretch(Vec3 a) const noexcept { return {x_ * a.x, y_ * a.y, a.z}; }
+  Four3 stretch(const Four3& a) const noexcept { return {x_ * a.x, y_ * a.y, a.z}; }
+
+  /// In the stretched space where the surface is a hemisphere, the normals seen by v are halfway
+  /// between v and a point c of the cap z > -v.z, uniform by area [DB23 Sec. 4].
+  struct Drawn {
+    Disk k;
+    Real q;      ///< |k|^2
+    Real scale;  ///< |stretched prev|
+    Vec3 v;      ///< its direction
+    Real m;      ///< c = (m k, 1 - (1 + v.z) q)
+    Real size;   ///< |stretched (c + v)|
+    Vec3 h;
+  };
+  Drawn draw(Vec3 prev, Vec2 u) const noexcept {
+    Drawn d;
+    d.k = concentricDisk(u), d.q = std::min(dot(d.k.d, d.k.d), Real(1));
+    d.scale = slant(prev), d.v = (1 / d.scale) * stretch(prev);
+    const Real top = 1 + d.v.z;
+    d.m = std::sqrt(std::max(top * (2 - top * d.q), Real(1e-12)));  // 0: the cap's far point
+    // c + v, exact at the rim
+    const Vec3 y = stretch({d.m * d.k.d.x + d.v.x, d.m * d.k.d.y + d.v.y, top * (1 - d.q)});
+    d.size = std::max(length(y), Real(1e-20));
+    d.h = (1 / d.size) * y;
+    return d;
+  }
 
   Real x_, y_;
 };
 
-/// In the stretched space where the surface is a hemisphere, the normals seen by v are halfway
-/// between v and a point c of the cap z > -v.z, uniform by area [DB23 Sec. 4].
-inline VisibleNormal Ggx::sampleVisible(Vec3 prev, Vec2 u) const noexcept {
-  const Mat3 stretch = diagonal(x_, y_, 1);
-  const Real scale = slant(prev);
-  const Vec3 v = (1 / scale) * (stretch * prev);
-  const Disk k = concentricDisk(u);
-  const Real q = std::min(dot(k.d, k.d), Real(1));
-  const Real z = 1 - (1 + v.z) * q;
-  const Real m = std::sqrt(std::max((1 + v.z) * (1 + z), Real(1e-12)));  // 0: the cap's far point
-  const Vec3 c = {m * k.d.x, m * k.d.y, z};
-  const Vec3 sum = {c.x + v.x, c.y + v.y, (1 + v.z) * (1 - q)};  // c + v, exact at the rim
-  const Vec3 y = stretch * sum;
-  const Real size = std::max(length(y), Real(1e-20));
-  const Vec3 h = (1 / size) * y;
-
-  const auto settled = [&](Vec3 dSum) { return (1 / size) * across(h, stretch * dSum); };
-  const auto column = [&](Vec2 d) {
-    const Real dz = -(1 + v.z) * 2 * dot(k.d, d), dm = (1 + v.z) * dz / (2 * m);
-    return settled({m * d.x + dm * k.d.x, m * d.y + dm * k.d.y, dz});
-  };
-  const Real dm = ((1 + z) - (1 + v.z) * q) / (2 * m);  // dc by d(v.z): (d dm, -q)
-  const auto moved = [&](Vec3 dPrev) {
-    const Vec3 dv = (1 / scale) * across(v, stretch * dPrev);
-    return settled(dv + dv.z * Vec3{k.d.x * dm, k.d.y * dm, -q});
-  };
-  return {h,
-          {column(k.du[0]), column(k.du[1])},
-          {moved({1, 0, 0}), moved({0, 1, 0}), moved({0, 0, 1})}};
+inline VisibleNormal Ggx::sampleVisibleDerivatives(Vec3 prev, Vec2 u) const noexcept {
+  const Drawn d = draw(prev, u);
+  const Frame f = Frame::around(prev);
+  const Vec2 p = d.k.du[0], q = d.k.du[1];
+  const Four kx = {p.x, q.x, 0, 0}, ky = {p.y, q.y, 0, 0};
+  const Four3 dv = (1 / d.scale) * across(d.v, stretch(columns({}, {}, f.s, f.t)));
+  const Real top = 1 + d.v.z, z = 1 - top * d.q;
+  const Four dz = -d.q * dv.z - (2 * top) * (d.k.d.x * kx + d.k.d.y * ky);
+  const Four dm = ((1 + z) * dv.z + top * dz) / (2 * d.m);  // m^2 = (1 + v.z) (1 + z)
+  const Four3 sum = {d.m * kx + d.k.d.x * dm + dv.x, d.m * ky + d.k.d.y * dm + dv.y, dz + dv.z};
+  return {d.h, f, (1 / d.size) * across(d.h, stretch(sum))};
 }
 
 /// The facet that carries prev into next, by reflection (next.z > 0) or refraction.
@@ -178,11 +190,8 @@ inline FacetGradient facetLogGradient(const Ggx& ggx, const Facet& f, Vec3 prev,
 }
 
 /// The derivatives of a direction that left a drawn normal.
-inline Mat3x2 byNumbers(const Turned& t, const VisibleNormal& n) noexcept {
-  return t.dNormal * n.du;
-}
-inline Mat3 byPrev(const Turned& t, const VisibleNormal& n) noexcept {
-  return t.dPrev + t.dNormal * n.dPrev;
+inline ScatterJacobian leavingDerivatives(const Turned& t, const VisibleNormal& n) noexcept {
+  return scatterJacobian(n.prev, t.moved(columns({}, {}, n.prev.s, n.prev.t), n.moved));
 }
 
 }  // namespace vestige

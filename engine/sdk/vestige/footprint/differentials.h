@@ -3,14 +3,19 @@
 // and contribution, carried from event to event by the chain rule.
 //
 // A *differential* is a change per unit of a random number; no delta is multiplied in, because some
-// deltas change at every vertex [MATH 0]. One of these rows a number, kept side by side, so that
-// four go through each step at once.
+// deltas change at every vertex [MATH 0]. Only what lies across the ray counts: a vertex that moves
+// along its ray is met at the same point of the next surface, and a unit direction has no other way
+// to go. So four components (two of dV, two of dD) and the gradient are a row, one row a number;
+// four rows go through each step at once.
 //
 // [PD01]  Suykens, Willems. Path differentials and applications. EGWR 2001.
 // [Ige99] Igehy. Tracing ray differentials. SIGGRAPH 1999.
 #pragma once
 #include <vestige/brdf.h>
 #include <vestige/light.h>
+
+#include <cstdint>
+#include <cstring>
 
 namespace vestige {
 
@@ -20,110 +25,96 @@ inline constexpr Real kGrazing = Real(0.03);
 /// The least cosine in d(log cos): the gradient saturates at the horizon.
 inline constexpr Real kLeastCosine = Real(1e-3);
 
-/// How the normal and uv move along with a point of a surface. Linear maps of dV.
+// These two are filled in place: a structure of scalars that is copied right after it was written
+// stalls the processor, and costs more than the derivatives in it.
+
+/// How uv and the normal move as one walks on a surface.
 struct SurfaceMotion {
   Vec3 normal;         ///< unit shading normal that faces the path, before any normal map
-  Mat3 dNormal{};      ///< [3 x 3], of that normal; per scene unit
   Vec3 du, dv;         ///< gradients of u and v: d(uv) = (du . dV, dv . dV)
+  Vec3 dNdu, dNdv;     ///< of that normal, per unit of u and v
   bool isFlat = true;  ///< neither normal nor tangents turn as one walks on it
-};
 
-/// [MATH 1.4]. For a path that arrives along `direction`: a normal that is turned to face it
-/// changes with the opposite sign. Degenerate uv: no change.
-inline SurfaceMotion surfaceMotion(const SurfacePoint& s, Vec3 direction) noexcept {
-  const bool behind = dot(direction, s.geometricNormal) > 0;
-  const bool turned = dot(s.normal, s.geometricNormal) < 0;
-  const Real facing = behind != turned ? Real(-1) : Real(1);
-  SurfaceMotion m;
-  m.normal = facing * s.normal;
-  const Real uu = dot(s.dPdu, s.dPdu), uv = dot(s.dPdu, s.dPdv), vv = dot(s.dPdv, s.dPdv);
-  const Real det = uu * vv - uv * uv;
-  if (!(det > Real(1e-10) * uu * vv)) return m;
-  m.du = (vv * s.dPdu - uv * s.dPdv) / det;
-  m.dv = (uu * s.dPdv - uv * s.dPdu) / det;
-  constexpr auto isZero = [](Vec3 a, Vec3 b) { return lengthSquared(a) + lengthSquared(b) == 0; };
-  m.isFlat = isZero(s.dNdu, s.dNdv) && isZero(s.dPduu, s.dPduv);
-  if (!m.isFlat) m.dNormal = facing * (outer(s.dNdu, m.du) + outer(s.dNdv, m.dv));
-  return m;
-}
-
-/// How a shading frame moves along with a point of its surface. Linear maps of dV.
-struct FrameMotion {
-  Mat3 dNormal{};       ///< [3 x 3], of the frame's n
-  Vec3 twist;           ///< spin of s and t about n beyond the least turn, rad = twist . dV
-  bool isStill = true;  ///< both are zero
-};
-
-namespace detail {
-
-/// t . ds for s along the part of dP/du across n.
-inline Vec3 twistOf(const SurfacePoint& s, const SurfaceMotion& m, const Frame& f,
-                    const Mat3& dNormal) noexcept {
-  const Real along = dot(f.n, s.dPdu), across = dot(f.s, s.dPdu);
-  if (!(across > Real(1e-4) * std::abs(along)) || !(across > 0)) return {};
-  return (dot(f.t, s.dPduu) * m.du + dot(f.t, s.dPduv) * m.dv -
-          along * (transpose(dNormal) * f.t)) /
-         across;
-}
-
-}  // namespace detail
-
-/// Of a frame whose s lies along dP/du. Where a map or the engine has tilted n away from the smooth
-/// normal, n is carried along with the smooth frame: a map's own curvature is ignored [MATH 1.4].
-inline FrameMotion frameMotion(const SurfacePoint& s, const SurfaceMotion& m,
-                               const Frame& f) noexcept {
-  if (m.isFlat) return {};
-  FrameMotion r{m.dNormal, {}, false};
-  if (lengthSquared(f.n - m.normal) > Real(1e-8)) {
-    const Frame base = Frame::along(m.normal, s.dPdu);
-    const Mat3 turn =
-        crossMatrix(m.normal) * m.dNormal + outer(m.normal, detail::twistOf(s, m, base, m.dNormal));
-    r.dNormal = Real(-1) * (crossMatrix(f.n) * turn);  // dn = omega x n
+  /// [MATH 1.4]. For a path that arrives along `direction`: a normal that is turned to face it
+  /// changes with the opposite sign. Degenerate uv: no change.
+  void arrive(const SurfacePoint& s, Vec3 direction) noexcept {
+    const bool behind = dot(direction, s.geometricNormal) > 0;
+    const bool turned = dot(s.normal, s.geometricNormal) < 0;
+    const Real facing = behind != turned ? Real(-1) : Real(1);
+    normal = facing * s.normal;
+    const Real uu = dot(s.dPdu, s.dPdu), uv = dot(s.dPdu, s.dPdv), vv = dot(s.dPdv, s.dPdv);
+    const Real det = uu * vv - uv * uv;
+    const bool isRegular = det > Real(1e-10) * uu * vv;
+    const Real scale = isRegular ? 1 / det : Real(0);
+    du = (scale * vv) * s.dPdu - (scale * uv) * s.dPdv;
+    dv = (scale * uu) * s.dPdv - (scale * uv) * s.dPdu;
+    constexpr auto isZero = [](Vec3 a, Vec3 b) { return lengthSquared(a) + lengthSquared(b) == 0; };
+    isFlat = !isRegular || (isZero(s.dNdu, s.dNdv) && isZero(s.dPduu, s.dPduv));
+    dNdu = facing * s.dNdu, dNdv = facing * s.dNdv;
   }
-  r.twist = detail::twistOf(s, m, f, r.dNormal);
-  return r;
-}
+};
+
+/// How a shading frame turns as one walks on its surface: omega per unit of u and of v. Its s lies
+/// along dP/du: the least turn that carries n along, and a twist about n that keeps s there.
+struct FrameMotion {
+  Vec3 spinU, spinV;  ///< rad: ds = omega x s, likewise t and n
+  bool isStill;       ///< both are zero
+
+  /// Where a map or the engine has tilted n away from the smooth normal, n is carried along with
+  /// the smooth frame: a map's own curvature is ignored [MATH 1.4].
+  FrameMotion(const SurfacePoint& s, const SurfaceMotion& m, const Frame& f) noexcept
+      : isStill(m.isFlat) {
+    if (isStill) return;
+    if (lengthSquared(f.n - m.normal) <= Real(1e-8)) {
+      spin(s, f, m.dNdu, m.dNdv);
+    } else {
+      spin(s, Frame::along(m.normal, s.dPdu), m.dNdu, m.dNdv);
+      spin(s, f, cross(spinU, f.n), cross(spinV, f.n));
+    }
+  }
+
+ private:
+  void spin(const SurfacePoint& s, const Frame& f, Vec3 dNdu, Vec3 dNdv) noexcept {
+    spinU = cross(f.n, dNdu), spinV = cross(f.n, dNdv);
+    // t . ds for s along the part of dP/du across n.
+    const Real along = dot(f.n, s.dPdu), across = dot(f.s, s.dPdu);
+    if (!(across > Real(1e-4) * std::abs(along)) || !(across > 0)) return;
+    const Real scale = 1 / across;
+    spinU += (scale * dot(f.t, s.dPduu - along * dNdu)) * f.n;
+    spinV += (scale * dot(f.t, s.dPduv - along * dNdv)) * f.n;
+  }
+};
 
 /// Everything about one event that is the same for all differentials. World space.
 struct ScatterEvent {
-  Frame frame;    ///< shading frame, n faces the path
-  Vec3 arriving;  ///< D, unit, into the surface
-  Vec3 leaving;   ///< D', unit
-  FrameMotion motion;
+  const Frame& frame;  ///< shading frame, n faces the path
+  Vec3 leaving;        ///< D', unit
+  const SurfaceMotion& surface;
+  const FrameMotion& motion;
 };
 
 namespace detail {
 
-/// Vectors of four differentials at once, and the little algebra that the chain rule needs.
-struct Four3 {
-  Four x, y, z;
-};
-inline Four four(Real v) noexcept { return Four{v, v, v, v}; }
-inline Four3 operator+(const Four3& a, const Four3& b) noexcept {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
+using FourBool = decltype(Four{} < Four{});
+inline bool any(const FourBool& lanes) noexcept {
+  std::uint64_t words[sizeof(lanes) / 8], all = 0;
+  std::memcpy(words, &lanes, sizeof lanes);
+  for (const std::uint64_t w : words) all |= w;
+  return all != 0;
 }
-inline Four3 operator-(const Four3& a, const Four3& b) noexcept {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
+/// f with one lane replaced, in registers: a lane written to memory makes the next read of the
+/// whole wait.
+inline Four withLane(const Four& f, int lane, Real v) noexcept {
+  using Index = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+  typedef Index FourIndex __attribute__((vector_size(4 * sizeof(Index))));
+  constexpr FourIndex lanes = {0, 1, 2, 3};
+  return lanes == Index(lane) ? four(v) : f;
 }
-inline Four3 scaled(const Four& s, Vec3 v) noexcept { return {s * v.x, s * v.y, s * v.z}; }
-inline Four3 scaled(Real s, const Four3& v) noexcept { return {s * v.x, s * v.y, s * v.z}; }
-inline Four dot(Vec3 a, const Four3& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Four3 cross(Vec3 a, const Four3& b) noexcept {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+inline Four inverseRoot(const Four& v) noexcept {
+  Four r;
+  for (int i = 0; i < 4; ++i) r[i] = 1 / std::sqrt(v[i]);
+  return r;
 }
-inline Four3 cross(const Four3& a, Vec3 b) noexcept {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline Four3 operator*(const Mat3& m, const Four3& v) noexcept {
-  return {m.c[0].x * v.x + m.c[1].x * v.y + m.c[2].x * v.z,
-          m.c[0].y * v.x + m.c[1].y * v.y + m.c[2].y * v.z,
-          m.c[0].z * v.x + m.c[1].z * v.y + m.c[2].z * v.z};
-}
-inline Four3 toLocal(const Frame& f, const Four3& v) noexcept {
-  return {dot(f.s, v), dot(f.t, v), dot(f.n, v)};
-}
-inline Four3 toWorld(const Frame& f, const Four3& v) noexcept { return Mat3{f.s, f.t, f.n} * v; }
-inline Four lengthSquared(const Four3& v) noexcept { return v.x * v.x + v.y * v.y + v.z * v.z; }
 
 }  // namespace detail
 
@@ -132,54 +123,81 @@ template <int Lanes>
 class Differentials {
  public:
   int size() const noexcept { return size_; }
-  Vec3 dVertex(int j) const noexcept { return at(v_, j); }          ///< dV/dx_j
-  Vec3 dDirection(int j) const noexcept { return at(d_, j); }       ///< dD/dx_j
-  Real gradient(int j) const noexcept { return g_[j / 4][j % 4]; }  ///< g_j [PD01 Eq. 12]
-  /// dV of four numbers from 4 b on, as components along two directions.
+  int blocks() const noexcept { return (size_ + 3) / 4; }
+  Vec3 direction() const noexcept { return ray_.n; }  ///< D of the ray under way, or just arrived
+  /// dV/dx_j, of the point met; before the first surface, of the ray's start, across the ray.
+  Vec3 dVertex(int j) const noexcept {
+    const Block& r = blocks_[j / 4];
+    return r.v.x[j % 4] * slideS_ + r.v.y[j % 4] * slideT_;
+  }
+  Vec3 dDirection(int j) const noexcept {  ///< dD/dx_j
+    const Block& r = blocks_[j / 4];
+    return r.d.x[j % 4] * ray_.s + r.d.y[j % 4] * ray_.t;
+  }
+  Real gradient(int j) const noexcept { return blocks_[j / 4].g[j % 4]; }  ///< g_j [PD01 Eq. 12]
+
+  /// Two components of four numbers.
   struct FourVec2 {
     Four x, y;
   };
+  /// Four numbers. Lanes beyond size() rest at zero.
+  struct Block {
+    FourVec2 v, d;  ///< dV and dD across the ray, along s and t of ray()
+    Four g;
+    Four longest;  ///< |dD|^2, the most so far, or 1: delta is at most 1 over its root
+  };
+  const Block& block(int b) const noexcept { return blocks_[b]; }
+  const Frame& ray() const noexcept { return ray_; }  ///< axes across the ray; n = D
+  /// dV of the numbers from 4 b on, as components along two directions.
   FourVec2 verticesAlong(int b, Vec3 s, Vec3 t) const noexcept {
-    return {detail::dot(s, v_[b]), detail::dot(t, v_[b])};
+    const FourVec2& v = blocks_[b].v;
+    return {dot(s, slideS_) * v.x + dot(s, slideT_) * v.y,
+            dot(t, slideS_) * v.x + dot(t, slideT_) * v.y};
   }
-  /// g of four numbers from 4 b on.
-  Four gradients(int b) const noexcept { return g_[b]; }
-  /// dD likewise.
-  FourVec2 directionsAlong(int b, Vec3 s, Vec3 t) const noexcept {
-    return {detail::dot(s, d_[b]), detail::dot(t, d_[b])};
-  }
-  int blocks() const noexcept { return (size_ + 3) / 4; }
+
   /// Of four numbers: the bound after the gradient's limit [PD01 Eq. 14] and the width of a sphere:
   /// a differential vector longer than that means nothing [MATH 2.5]. A gradient of zero limits
   /// nothing.
   Four deltas(int b, Four bound, Real limit) const noexcept {
+    const Block& r = blocks_[b];
     Four d = bound;
     if (limit < kInfinity) {
-      const Four steep = g_[b] < 0 ? -g_[b] : g_[b];
+      const Four steep = r.g < 0 ? -r.g : r.g;
       d = d * steep > limit ? limit / steep : d;
     }
-    return d < widest_[b] ? d : widest_[b];
+    // |dD| delta <= 1, by squares: the root is seldom needed.
+    if (!detail::any(d * d * r.longest > 1)) return d;
+    const Four widest = detail::inverseRoot(r.longest);
+    return d < widest ? d : widest;
   }
 
   /// Starts with the numbers of a camera, or of a light's emission.
-  void begin(const RayJacobian& ray, int variables) noexcept {
+  void begin(const RayJacobian& ray, Vec3 direction, int variables) noexcept {
     size_ = 0;
+    leave(Frame::around(direction));
     for (int j = 0; j < variables; ++j)
       append(ray.dOrigin[std::size_t(j)], ray.dDirection[std::size_t(j)], 0);
   }
 
   /// To the point where the ray meets a surface at distance t [Ige99 Eq. 10, 12; MATH 1.3].
   /// n is the geometric normal, either side. `limit`: no dV grows beyond it (the scene's size).
-  void transfer(Vec3 direction, Real t, Vec3 n, Real limit) noexcept {
-    using namespace detail;
-    const Real c = dot(direction, n), divisor = std::copysign(std::max(std::abs(c), kGrazing), c);
-    const Vec3 k = n / divisor;
+  void transfer(Real t, Vec3 n, Real limit) noexcept {
+    const Real c = dot(ray_.n, n), divisor = std::copysign(std::max(std::abs(c), kGrazing), c);
+    slideS_ = ray_.s - (dot(n, ray_.s) / divisor) * ray_.n;
+    slideT_ = ray_.t - (dot(n, ray_.t) / divisor) * ray_.n;
+    if (c != divisor) {  // a clamped divisor leaves a rest along n: take it out
+      slideS_ -= dot(n, slideS_) * n;
+      slideT_ -= dot(n, slideT_) * n;
+    }
+    const Real ss = dot(slideS_, slideS_), st = dot(slideS_, slideT_), tt = dot(slideT_, slideT_);
+    const Four most = four(limit * limit);
     for (int b = 0; b < blocks(); ++b) {
-      const Four3 w = v_[b] + scaled(t, d_[b]);
-      v_[b] = w - scaled(dot(k, w), direction);
-      // A clamped divisor leaves a rest along n: take it out, dV lies in the surface.
-      if (c != divisor) v_[b] = v_[b] - scaled(dot(n, v_[b]), n);
-      shorten(v_[b], limit);
+      FourVec2& v = blocks_[b].v;
+      v.x += t * blocks_[b].d.x, v.y += t * blocks_[b].d.y;
+      const Four l = ss * v.x * v.x + 2 * st * v.x * v.y + tt * v.y * v.y;
+      if (!detail::any(l > most)) continue;
+      const Four k = limit * detail::inverseRoot(l > most ? l : most);
+      v.x *= k, v.y *= k;
     }
   }
 
@@ -189,39 +207,56 @@ class Differentials {
   /// Without `log` g stays as it is: where nobody asks for it, and at specular events, whose weight
   /// has no cosine and whose chance follows Fresnel's term.
   ///
-  /// The frame turns by omega = N x dN + tau N; seen from it the path arrives from
-  /// dp = F^T(-dD + omega x D), and leaves at dD' = omega x D' + F dPrev dp (DESIGN 3.2, MATH 1.7).
+  /// The frame turns by omega; seen from it the path arrives from dp = F^T(-dD + omega x D), and
+  /// leaves at F dPrev dp + omega x D' (DESIGN 3.2, MATH 1.7). Linear in dD across the ray and in
+  /// the walk on the surface: so it is worked out for a unit of each, and every number takes its
+  /// share of the four.
   void scatter(const ScatterEvent& e, const ScatterJacobian& jacobian, const LogGradient* log,
                bool specular) noexcept {
-    using namespace detail;
-    const Real cosine = 1 / clampedCosine(e);
+    const Frame& f = e.frame;
+    const Frame next = Frame::around(e.leaving);
+    const Vec3 nextS = f.toLocal(next.s), nextT = f.toLocal(next.t);
+
+    // Columns: a unit of dD along the ray's s, along its t, a walk of a unit of u, of v.
+    Vec3 turnU, turnV;
+    const bool isStill = e.motion.isStill;
+    if (!isStill) turnU = cross(e.motion.spinU, ray_.n), turnV = cross(e.motion.spinV, ray_.n);
+    const Four3 turned = columns(-ray_.s, -ray_.t, turnU, turnV);
+    const Four3 dPrev = {dot(f.s, turned), dot(f.t, turned), dot(f.n, turned)};
+    const Four3 dNext = jacobian.dPrev * dPrev;
+    Four x = dot(nextS, dNext), y = dot(nextT, dNext);
+    if (!isStill) {  // omega x D', along s and t of D'
+      const auto along = [&](Vec3 axis) {
+        return Four{0, 0, dot(e.motion.spinU, axis), dot(e.motion.spinV, axis)};
+      };
+      x += along(next.t), y -= along(next.s);
+    }
+    // d(log f cos) = gPrev . dp + (gNext + n / cos) . F^T(dD' - omega x D').
+    const Vec3 gNext = log ? contributionByNext(e, *log) : Vec3{};
+    const Four g = log ? dot(log->dPrev, dPrev) + dot(gNext, dNext) : four(0);
+
+    const auto bySlide = [&](Vec3 slide, const Four& column) {
+      return dot(e.surface.du, slide) * column[2] + dot(e.surface.dv, slide) * column[3];
+    };
+    const Real xs = bySlide(slideS_, x), xt = bySlide(slideT_, x);
+    const Real ys = bySlide(slideS_, y), yt = bySlide(slideT_, y);
+    const Real gs = bySlide(slideS_, g), gt = bySlide(slideT_, g);
+    const Real vss = dot(next.s, slideS_), vst = dot(next.s, slideT_);
+    const Real vts = dot(next.t, slideS_), vtt = dot(next.t, slideT_);
     for (int b = 0; b < blocks(); ++b) {
-      Four3 dN{}, omega{}, turned = scaled(Real(-1), d_[b]);
-      if (!e.motion.isStill) {
-        dN = e.motion.dNormal * v_[b];
-        omega = cross(e.frame.n, dN) + scaled(dot(e.motion.twist, v_[b]), e.frame.n);
-        turned = turned + cross(omega, e.arriving);
-      }
-      const Four3 dPrev = toLocal(e.frame, turned);
-      const Four3 dNext = jacobian.dPrev * dPrev;
-      Four3 d = toWorld(e.frame, dNext);
-      if (!e.motion.isStill) d = d + cross(omega, e.leaving);
-      d = d - scaled(dot(e.leaving, d), e.leaving);  // D' stays a unit vector
-      d_[b] = d;
-      narrow(widest_[b], lengthSquared(d));
-      if (!log) continue;
-      // d(log f) = gPrev . dp + gNext . F^T(dD' - omega x D'); the cosine: (dN . D' + N . dD') /
-      // cos.
-      g_[b] += dot(log->dPrev, dPrev) + dot(log->dNext, dNext) +
-               cosine * (dot(e.leaving, dN) + dot(e.frame.n, d));
+      Block& r = blocks_[b];
+      const FourVec2 v = r.v, d = r.d;
+      r.d = {x[0] * d.x + x[1] * d.y + xs * v.x + xt * v.y,
+             y[0] * d.x + y[1] * d.y + ys * v.x + yt * v.y};
+      r.v = {vss * v.x + vst * v.y, vts * v.x + vtt * v.y};
+      r.g += g[0] * d.x + g[1] * d.y + gs * v.x + gt * v.y;
+      narrow(r);
     }
+    leave(next);
     if (specular) return;
-    const Vec3 gNext = log ? e.frame.toWorld(log->dNext) + cosine * e.frame.n : Vec3{};
-    for (const Vec3 column : jacobian.du.c) {
-      Vec3 d = e.frame.toWorld(column);
-      d -= dot(d, e.leaving) * e.leaving;
-      append({}, d, dot(gNext, d));
-    }
+    const Vec3 p = jacobian.du.c[0], q = jacobian.du.c[1];
+    appendPair({dot(nextS, p), dot(nextT, p)}, {dot(nextS, q), dot(nextT, q)}, dot(gNext, p),
+               dot(gNext, q));
   }
 
   /// The connection to a light in the direction e.leaving: how that direction and f cos L move, the
@@ -230,78 +265,77 @@ class Differentials {
                                    const LightJacobian& light,
                                    const LightLogGradient& lightLog) const noexcept {
     Differentials<Lanes + 4> all;
+    all.begin({}, e.leaving, 0);
+    const Vec3 gNext = contributionByNext(e, log);
     for (int j = 0; j < size_; ++j) {
-      const Vec3 v = dVertex(j), d = light.dFrom * v;
-      all.append(v, d, gradient(j) + connectionGradient(e, log, j, d) + dot(lightLog.dFrom, v));
+      const Vec3 moved = dVertex(j), dNext = light.dFrom * moved;
+      const Vec3 omega =
+          dot(e.surface.du, moved) * e.motion.spinU + dot(e.surface.dv, moved) * e.motion.spinV;
+      const Real own = dot(log.dPrev, e.frame.toLocal(cross(omega, ray_.n) - dDirection(j))) +
+                       dot(gNext, e.frame.toLocal(dNext - cross(omega, e.leaving)));
+      all.append(moved, dNext, gradient(j) + own + dot(lightLog.dFrom, moved));
     }
-    const Vec3 gNext = e.frame.toWorld(log.dNext) + e.frame.n / clampedCosine(e);
-    all.append({}, light.du.c[0], dot(gNext, light.du.c[0]) + lightLog.du.x);
-    all.append({}, light.du.c[1], dot(gNext, light.du.c[1]) + lightLog.du.y);
+    for (const int j : {0, 1}) {
+      const Vec3 d = light.du.c[j];
+      all.append({}, d, dot(gNext, e.frame.toLocal(d)) + (j ? lightLog.du.y : lightLog.du.x));
+    }
     return all;
   }
 
-  /// One more number; ignored when all lanes are taken (reduce() before).
+  /// One more number, of which what lies across the ray is kept; ignored when all lanes are taken
+  /// (reduce() before).
   void append(Vec3 dV, Vec3 dD, Real g) noexcept {
-    if (size_ == Lanes) return;
-    if (size_ % 4 == 0) {  // a new block: its other lanes rest at zero
-      constexpr Four zero{};
-      v_[size_ / 4] = d_[size_ / 4] = {zero, zero, zero};
-      g_[size_ / 4] = zero, widest_[size_ / 4] = zero + 1;
-    }
-    set(size_++, dV, dD, g);
+    append(Vec2{dot(ray_.s, dV), dot(ray_.t, dV)}, {dot(ray_.s, dD), dot(ray_.t, dD)}, g);
   }
-  void set(int j, Vec3 dV, Vec3 dD, Real g) noexcept {
-    const int b = j / 4, i = j % 4;
-    v_[b].x[i] = dV.x, v_[b].y[i] = dV.y, v_[b].z[i] = dV.z;
-    d_[b].x[i] = dD.x, d_[b].y[i] = dD.y, d_[b].z[i] = dD.z;
-    g_[b][i] = g, widest_[b][i] = 1 / std::sqrt(std::max(lengthSquared(dD), Real(1)));
+
+  /// The same for components along s and t of ray().
+  void append(Vec2 v, Vec2 d, Real g) noexcept {
+    if (size_ == Lanes) return;
+    Block& r = blocks_[size_ / 4];
+    const int lane = size_++ % 4;
+    if (lane == 0) {  // a new block: its other lanes rest at zero
+      r.v.x = r.v.y = r.d.x = r.d.y = r.g = Four{};
+      r.longest = four(1);
+    }
+    const auto set = [lane](Four& f, Real value) { f = detail::withLane(f, lane, value); };
+    set(r.v.x, v.x), set(r.v.y, v.y), set(r.d.x, d.x), set(r.d.y, d.y), set(r.g, g);
+    set(r.longest, std::max(dot(d, d), Real(1)));
   }
   void clear() noexcept { size_ = 0; }
 
  private:
-  static Vec3 at(const detail::Four3* list, int j) noexcept {
-    const detail::Four3& f = list[j / 4];
-    return {f.x[j % 4], f.y[j % 4], f.z[j % 4]};
-  }
-
-  static bool anyAbove(const Four& a, Real limit) noexcept {
-    return a[0] > limit || a[1] > limit || a[2] > limit || a[3] > limit;
-  }
-  static void shorten(detail::Four3& v, Real limit) noexcept {
-    const Four l = detail::lengthSquared(v);
-    if (!anyAbove(l, limit * limit)) return;
-    for (int i = 0; i < 4; ++i) {
-      if (!(l[i] > limit * limit)) continue;
-      const Real k = limit / std::sqrt(l[i]);
-      v.x[i] *= k, v.y[i] *= k, v.z[i] *= k;
+  /// Two numbers of one event, which move the direction only. Built in registers: lanes written one
+  /// by one make the next read of their block wait.
+  void appendPair(Vec2 p, Vec2 q, Real gp, Real gq) noexcept {
+    if (size_ % 2 == 1 || size_ == Lanes) {
+      append(Vec2{}, p, gp), append(Vec2{}, q, gq);
+      return;
     }
+    Block& r = blocks_[size_ / 4];
+    const bool isNew = size_ % 4 == 0;
+    const auto pair = [isNew](const Four& old, Real a, Real b) {
+      return isNew ? Four{a, b, 0, 0} : Four{old[0], old[1], a, b};
+    };
+    if (isNew) r.v.x = r.v.y = Four{}, r.longest = four(1);
+    r.d.x = pair(r.d.x, p.x, q.x), r.d.y = pair(r.d.y, p.y, q.y), r.g = pair(r.g, gp, gq);
+    narrow(r);
+    size_ += 2;
   }
-  static void narrow(Four& widest, const Four& turn) noexcept {
-    if (!anyAbove(turn, 1)) return;
-    for (int i = 0; i < 4; ++i)
-      if (turn[i] > 1) widest[i] = std::min(widest[i], 1 / std::sqrt(turn[i]));
+  static void narrow(Block& r) noexcept {
+    const Four turn = r.d.x * r.d.x + r.d.y * r.d.y;
+    r.longest = turn > r.longest ? turn : r.longest;
   }
 
-  static Real clampedCosine(const ScatterEvent& e) noexcept {
+  static Vec3 contributionByNext(const ScatterEvent& e, const LogGradient& log) noexcept {
     const Real c = dot(e.frame.n, e.leaving);
-    return std::copysign(std::max(std::abs(c), kLeastCosine), c);
+    return log.dNext + Vec3{0, 0, std::copysign(1 / std::max(std::abs(c), kLeastCosine), c)};
   }
 
-  /// d log(f cos) by number j for a direction that moves by dNext whatever the frame does.
-  Real connectionGradient(const ScatterEvent& e, const LogGradient& log, int j,
-                          Vec3 dNext) const noexcept {
-    const Vec3 v = dVertex(j), dN = e.motion.dNormal * v;
-    const Real tau = dot(e.motion.twist, v);
-    const Vec3 omega = cross(e.frame.n, dN) + tau * e.frame.n;
-    const Vec3 dPrev = e.frame.toLocal(-dDirection(j) + cross(omega, e.arriving));
-    const Vec3 dOut = e.frame.toLocal(dNext - cross(omega, e.leaving));
-    return dot(log.dPrev, dPrev) + dot(log.dNext, dOut) +
-           (dot(dN, e.leaving) + dot(e.frame.n, dNext)) / clampedCosine(e);
-  }
+  void leave(const Frame& ray) noexcept { ray_ = ray, slideS_ = ray.s, slideT_ = ray.t; }
 
-  detail::Four3 v_[Lanes / 4], d_[Lanes / 4];
-  Four g_[Lanes / 4];
-  Four widest_[Lanes / 4];  ///< the most that delta may be: 1 over the longest |dD| so far, or 1
+  Block blocks_[Lanes / 4];
+  Frame ray_;             ///< n = D
+  Vec3 slideS_, slideT_;  ///< dV of the point met, for a unit along s and t
   int size_ = 0;
 };
 

@@ -37,10 +37,11 @@ inline Region ellipse(const Covariance& m) noexcept {
   if (!(major > 0)) return {};
   // The smaller eigenvalue by the determinant: a difference of large numbers would lose it.
   const Real minor = std::max((m.xx * m.yy - m.xy * m.xy) / major, Real(0));
-  Vec2 e = half > 0 ? Vec2{half + spread, m.xy} : Vec2{m.xy, spread - half};
-  const Real l = std::sqrt(dot(e, e));
-  e = l > 0 ? e * (1 / l) : Vec2{1, 0};
-  return {std::sqrt(major) * e, std::sqrt(minor) * Vec2{-e.y, e.x}};
+  // Along (1, k) or (k, 1), |k| <= 1.
+  const Real steep = spread + std::abs(half), k = steep > 0 ? m.xy / steep : Real(0);
+  const Vec2 e = half < 0 ? Vec2{k, 1} : Vec2{1, k};
+  const Real scale = 1 / (1 + k * k);
+  return {std::sqrt(scale * major) * e, std::sqrt(scale * minor) * Vec2{-e.y, e.x}};
 }
 
 /// Exact area of the Minkowski sum of the vectors: a polygon of 2 K corners [MATH 2.1].

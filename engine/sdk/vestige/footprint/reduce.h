@@ -24,14 +24,13 @@ void factor(Real (&s)[N][N]) noexcept {
 
 /// Rows: position (2), direction (2), gradient (1 or none).
 template <int N, int Lanes>
-void reduceTo(Differentials<Lanes>& d, const Frame& fv, const Frame& fd,
-              const Four* weights) noexcept {
+void reduceTo(Differentials<Lanes>& d, const Four* weights) noexcept {
   Four rows[N][Lanes / 4] = {};
   for (int b = 0; b < d.blocks(); ++b) {
-    const auto v = d.verticesAlong(b, fv.s, fv.t), w = d.directionsAlong(b, fd.s, fd.t);
+    const auto& [v, w, g, longest] = d.block(b);
     rows[0][b] = weights[b] * v.x, rows[1][b] = weights[b] * v.y;
     rows[2][b] = weights[b] * w.x, rows[3][b] = weights[b] * w.y;
-    if constexpr (N == 5) rows[4][b] = weights[b] * d.gradients(b);
+    if constexpr (N == 5) rows[4][b] = weights[b] * g;
   }
   Real s[N][N];
   for (int i = 0; i < N; ++i)
@@ -41,38 +40,36 @@ void reduceTo(Differentials<Lanes>& d, const Frame& fv, const Frame& fd,
       s[i][k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
   // Positions, directions and gradients have units of their own: each block to unit trace.
-  Real unit[N];
+  Real unit[N], inverse[N];
   for (int i = 0; i < N; ++i) {
     const int first = i & ~1, second = std::min(first + 1, N - 1);
     const Real trace = s[first][first] + (second > first ? s[second][second] : Real(0));
     unit[i] = trace > 0 ? std::sqrt(trace) : Real(1);
+    inverse[i] = 1 / unit[i];
   }
   for (int i = 0; i < N; ++i)
-    for (int k = 0; k <= i; ++k) s[i][k] /= unit[i] * unit[k];
+    for (int k = 0; k <= i; ++k) s[i][k] *= inverse[i] * inverse[k];
   factor(s);
   d.clear();
   for (int k = 0; k < N; ++k) {
     Real c[5] = {};
     bool isZero = true;
     for (int i = k; i < N; ++i) c[i] = s[i][k] * unit[i], isZero = isZero && c[i] == 0;
-    if (!isZero) d.append(c[0] * fv.s + c[1] * fv.t, c[2] * fd.s + c[3] * fd.t, c[4]);
+    if (!isZero) d.append(Vec2{c[0], c[1]}, Vec2{c[2], c[3]}, c[4]);
   }
 }
 
 }  // namespace detail
 
-/// Replaces the differentials at a vertex with geometric normal n on a path that arrives along
-/// `direction` (or leaves along it: whatever dDirection is tangent to). weights[j] multiplies
-/// number j, one for every lane: 1 where deltas are common to all, its own delta where they are
-/// frozen. Without `gradient`, g becomes 0.
+/// Replaces the differentials on arrival at a vertex. weights[b] multiplies block b, lane by lane:
+/// 1 where deltas are common to all, a number's own delta where they are frozen. Without
+/// `gradient`, g becomes 0.
 template <int Lanes>
-void reduce(Differentials<Lanes>& d, Vec3 n, Vec3 direction, const Four* weights,
-            bool gradient) noexcept {
-  const Frame fv = Frame::around(n), fd = Frame::around(direction);
+void reduce(Differentials<Lanes>& d, const Four* weights, bool gradient) noexcept {
   if (gradient)
-    detail::reduceTo<5>(d, fv, fd, weights);
+    detail::reduceTo<5>(d, weights);
   else
-    detail::reduceTo<4>(d, fv, fd, weights);
+    detail::reduceTo<4>(d, weights);
 }
 
 }  // namespace vestige
