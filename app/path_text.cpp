@@ -25,9 +25,16 @@ std::string objectText(const Surface& s, const LoadedScene& loaded) {
   return t;
 }
 
+/// Between surfaces.
+bool isGone(const PathVertex& v) {
+  const std::string event = v.event;
+  return event == "escape" || event == "roulette";
+}
+
 std::string eventText(const PathVertex& v) {
   const std::string event = v.event;
   if (event == "escape") return "leaves the scene along " + text(-v.toPrev);
+  if (event == "roulette") return "ends by Russian roulette: too little was left of it";
   if (event == "pass") return "passes through: the surface is partly transparent";
   if (event == "absorbed") return "is absorbed";
   if (event == "end") return "ends: longest path";
@@ -82,7 +89,7 @@ std::string footprintText(const PathVertex& v) {
 
 std::string vertexText(std::size_t k, const PathVertex& v, const std::vector<std::string>& names,
                        const LoadedScene& loaded) {
-  if (std::string(v.event) == "escape")
+  if (isGone(v))
     return fmt::format("{}  {}\n    throughput  {}\n", k, eventText(v), text(v.throughput));
   std::string t = fmt::format("{}  {}\n    at          {}, {} from the last point\n", k,
                               objectText(v.surface, loaded), text(v.surface.position),
@@ -113,7 +120,7 @@ Json differentialsJson(const VertexDifferentials& d, const std::vector<std::stri
 Json vertexJson(const PathVertex& v, const std::vector<std::string>& names,
                 const LoadedScene& loaded) {
   Json j = {{"event", v.event}, {"throughput", {v.throughput.r, v.throughput.g, v.throughput.b}}};
-  if (std::string(v.event) == "escape") return j["direction"] = json(-v.toPrev), j;
+  if (isGone(v)) return j["direction"] = json(-v.toPrev), j;
   const ObjectInfo& o = loaded.scene->object(v.surface.object);
   j["shape"] = o.shape, j["brdf"] = o.brdf;
   j["position"] = json(v.surface.position), j["distance"] = v.surface.distance;

@@ -228,7 +228,7 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
     m.constants[i] = {{mean.colour.r, mean.colour.g, mean.colour.b, mean.alpha}};
     const bool isReal = rows[i].type == ValueType::real;
     // What enters the light linearly may be averaged; a normal or a roughness may not [MATH T8].
-    const bool isFiltered = i == m.opacity || (!isReal && i != m.normalMap && !rows[i].pointwise);
+    const bool isFiltered = i == m.opacity || (!isReal && i != m.normalMap && !rows[i].isNonlinear);
     m.textured.push_back({i, isReal, isFiltered, Real(rows[i].low), Real(rows[i].high), *p});
     m.usesFootprint |= isFiltered;
     if (i == m.normalMap) m.hasNormalMap = true;
@@ -275,7 +275,11 @@ void SceneBuilder::addIntegrator() {
     wanted.kind = "integrator", wanted.plugin = options_.integrator;
   }
   const Schema* schema = registry_.schema("integrator", wanted.plugin);
-  if (!options_.footprint.empty() && schema && schema->find("footprint")) {
+  if (!options_.footprint.empty() && schema && !schema->find("footprint"))
+    diagnostics_.warning(wanted.span, "integrator " + wanted.plugin +
+                                          " has no footprints: '--footprint " + options_.footprint +
+                                          "' changes nothing");
+  else if (!options_.footprint.empty() && schema) {
     auto footprint = std::make_shared<Block>();
     footprint->kind = "footprint", footprint->plugin = options_.footprint;
     Value value;

@@ -24,8 +24,8 @@ class RoughConductor final : public Brdf {
         .summary = "metal with GGX roughness",
         .inputs = {real("alpha", 0.1).range(0, 1).doc("GGX width: 0.01 polished, 1 rough"),
                    real("anisotropy", 0).range(0, 1).doc("0 round, 1 brushed along u"),
-                   rgb("eta", 0).range(0, 100).curved().doc("real part of the refractive index"),
-                   rgb("k", 0).range(0, 100).curved().doc("imaginary part; gold 3.98 2.39 1.60"),
+                   rgb("eta", 0).range(0, 100).nonlinear().doc("real part of the refractive index"),
+                   rgb("k", 0).range(0, 100).nonlinear().doc("imaginary part; gold 3.98 2.39 1.60"),
                    rgb("specular", 1)
                        .range(0, 1)
                        .doc("reflected fraction at normal incidence, where eta and k are 0")}};

@@ -8,6 +8,8 @@
 #include <vestige/path_report.h>
 #include <vestige/plugin.h>
 
+#include <utility>
+
 namespace vestige {
 namespace {
 
@@ -113,10 +115,8 @@ class Distributed final : public Integrator {
   }
 
   static Rgb escaped(PathContext& c, Node& node) noexcept {
-    Vec3 spread[2];
-    if (node.footprint) node.footprint->directions(spread);
-    node.report.escape(node.ray.direction, grey(1));
-    return background(c.scene, node.drawn, node.ray.direction, node.footprint ? spread : nullptr);
+    node.report.gone("escape", node.ray.direction, grey(1));
+    return filteredBackground(c.scene, node.drawn, node.ray.direction, node.footprint);
   }
 
   /// Whether the ray ends at a surface that may be partly transparent.
@@ -147,50 +147,63 @@ class Distributed final : public Integrator {
   Rgb scattered(PathContext& c, Node& node, const Surface& s, const Interaction& x,
                 Real size) const noexcept {
     const std::uint32_t dim = dimension::vertex(std::uint32_t(node.edge - 1));
-    const auto draw = [&](int child, ScatterNumbers& numbers) {
-      const std::uint32_t index = node.index * std::uint32_t(split_.count) + std::uint32_t(child);
-      numbers = {c.sampler.number(dim + dimension::kLobe, index),
-                 split_.pair(c.sampler, dim + dimension::kDirection, index)};
-      return drawScatter(x, numbers);
-    };
     Rgb sum;
-    bool isTold = false;
+    SpecularChild specular[kMaxSpecular];
+    int lobes = 0;
+    Report report{&node.report};
     for (int child = 0; child < split_.count; ++child) {
-      ScatterNumbers numbers;
-      const auto next = draw(child, numbers);
+      const std::uint32_t index = node.index * std::uint32_t(split_.count) + std::uint32_t(child);
+      const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe, index),
+                                   split_.pair(c.sampler, dim + dimension::kDirection, index)};
+      const auto next = drawScatter(x, numbers);
       if (!next || isBlack(next->weight)) continue;
-      // All rays through one specular lobe are the same ray: the first of them stands for them.
-      Real stands = 1;
-      if (next->local.specular) {
-        ScatterNumbers ignored;
-        const auto isSame = [&](int other) {
-          const auto o = draw(other, ignored);
-          return o && o->local.specular && o->local.lobe == next->local.lobe;
-        };
-        bool isFirst = true;
-        for (int other = 0; other < child; ++other) isFirst = isFirst && !isSame(other);
-        if (!isFirst) continue;
-        for (int other = child + 1; other < split_.count; ++other) stands += isSame(other);
-      }
-      if (node.edge == 1 && c.aovs)
-        c.aovs->albedo += stands / Real(split_.count) * next->local.weight;
-      sum += stands * next->weight *
-             followed(c, node, s, x, *next, numbers, child, isTold ? nullptr : &node.report, size);
-      isTold = true;
+      if (node.edge == 1 && c.aovs) c.aovs->albedo += next->local.weight / Real(split_.count);
+      if (next->local.specular && joins(specular, lobes, *next)) continue;
+      if (next->local.specular && lobes < kMaxSpecular)
+        specular[lobes++] = {*next, numbers, index, 1};
+      else
+        sum += next->weight * followed(c, node, s, x, *next, numbers, index, report, size);
     }
-    if (!isTold) node.report.end(s, x.toPrev, grey(1), "absorbed", node.footprint);
+    for (int i = 0; i < lobes; ++i) {
+      const SpecularChild& one = specular[i];
+      sum += one.count * one.next.weight *
+             followed(c, node, s, x, one.next, one.numbers, one.index, report, size);
+    }
+    if (report.first) node.report.end(s, x.toPrev, grey(1), "absorbed", node.footprint);
     return sum / Real(split_.count);
   }
 
-  /// The tree behind one drawn ray.
+  /// All rays through one specular lobe are the same ray: one of them stands for them.
+  struct SpecularChild {
+    Scatter next;
+    ScatterNumbers numbers;
+    std::uint32_t index;
+    Real count;
+  };
+  static constexpr int kMaxSpecular = 4;  ///< lobes; those of a BRDF that has more go one by one
+
+  static bool joins(SpecularChild* known, int lobes, const Scatter& next) noexcept {
+    for (int i = 0; i < lobes; ++i)
+      if (known[i].next.local.lobe == next.local.lobe) return ++known[i].count, true;
+    return false;
+  }
+
+  /// The first ray followed is the one that is told.
+  struct Report {
+    PathReport* first;
+    PathReport* take() noexcept { return std::exchange(first, nullptr); }
+  };
+
+  /// The tree behind one drawn ray; `index` among the nodes of its level.
   Rgb followed(PathContext& c, const Node& node, const Surface& s, const Interaction& x,
-               const Scatter& next, ScatterNumbers numbers, int child, PathReport* report,
+               const Scatter& next, ScatterNumbers numbers, std::uint32_t index, Report& reports,
                Real size) const noexcept {
+    PathReport* report = reports.take();
     if (report) report->scatter(s, x.toPrev, grey(1), next, node.footprint);
     Node below{spawnRay(s, next.toNext),
                {s.position, next.local.specular ? kInfinity : Real(split_.count) * next.local.pdf,
                 Real(lightSamples_)},
-               node.index * std::uint32_t(split_.count) + std::uint32_t(child),
+               index,
                node.edge + 1,
                nullptr,
                PathReport()};

@@ -95,11 +95,9 @@ class PathIntegrator final : public Integrator {
       ++c.counters.rays;
       const std::optional<Surface> hit = c.scene.intersect(path.ray);
       if (!hit) {
-        Vec3 spread[2];
-        if (path.footprint) path.footprint->directions(spread);
-        radiance += path.throughput * background(c.scene, path.drawn, path.ray.direction,
-                                                 path.footprint ? spread : nullptr);
-        path.report.escape(path.ray.direction, path.throughput);
+        radiance += path.throughput *
+                    filteredBackground(c.scene, path.drawn, path.ray.direction, path.footprint);
+        path.report.gone("escape", path.ray.direction, path.throughput);
         return std::nullopt;
       }
       if (path.footprint) path.footprint->arrive(*hit, path.sceneSize);
@@ -140,6 +138,7 @@ class PathIntegrator final : public Integrator {
     if (path.footprint && (goesOn || path.report.isWaiting()))
       path.footprint->scatter(s, x, *next, numbers);
     path.report.left(path.footprint);
+    if (!goesOn) path.report.gone("roulette", next->toNext, path.throughput);
     return goesOn;
   }
 

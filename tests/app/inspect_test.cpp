@@ -86,3 +86,27 @@ TEST_CASE("a footprint block is checked like any other", "[app]") {
   CHECK(wrong.exit == 1);
   CHECK_THAT(wrong.err, containsText("limit") && containsText("b.scene:4"));
 }
+
+TEST_CASE("inspect tells where roulette ended a path", "[app]") {
+  int escaped = 0, ended = 0;
+  for (int sample = 0; sample < 20; ++sample) {
+    const Run r = vestige({"inspect", VESTIGE_SOURCE_DIR "/examples/cornell.scene", "200", "200",
+                           "--sample", std::to_string(sample), "--json"});
+    REQUIRE(r.exit == 0);
+    const auto j = nlohmann::json::parse(r.out)["vertices"];
+    const auto last = j.back();
+    escaped += last["event"] == "escape", ended += last["event"] == "roulette";
+    if (last["event"] == "roulette") CHECK(j.size() > 3);
+  }
+  CHECK(escaped > 0);  // the box is open towards the camera
+  CHECK(ended > 3);
+}
+
+TEST_CASE("a footprint asked of an integrator that has none is a warning", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", kPlane);
+  const Run r = vestige({"render", scene, "--integrator", "normals", "--footprint", "safe", "--spp",
+                         "1", "-o", (folder.path() / "a.exr").string()});
+  CHECK(r.exit == 0);
+  CHECK_THAT(r.err, containsText("integrator normals has no footprints"));
+}

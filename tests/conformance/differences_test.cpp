@@ -6,6 +6,7 @@
 #include <vestige/plugin.h>
 
 #include "support/brdf_events.h"
+#include "support/forwarding_brdf.h"
 
 using namespace vestige;
 using namespace vestige::test;
@@ -14,32 +15,15 @@ namespace {
 
 constexpr double kTolerance = kDouble ? 1e-5 : 1e-2;
 
-/// Another BRDF, its derivatives taken away.
-class Bare : public Brdf {
- public:
-  explicit Bare(const Brdf& full) : full_(full) {}
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return full_.eval(p, toNext);
-  }
-  std::optional<ScatterSample> sample(const ScatterPoint& p,
-                                      ScatterNumbers n) const noexcept override {
-    return full_.sample(p, n);
-  }
-  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return full_.pdf(p, toNext);
-  }
-
- private:
-  const Brdf& full_;
-};
+using Bare = Forwarding<Brdf>;
 
 struct Half : Bare {
-  using Bare::Bare;
+  using Bare::Forwarding;
   LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
 };
 
 class Hidden : public Bare {
-  using Bare::Bare;
+  using Bare::Forwarding;
   ScatterJacobian sampleDerivatives(const ScatterPoint&, ScatterNumbers) const noexcept override {
     return {};
   }

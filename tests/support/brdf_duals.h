@@ -10,26 +10,15 @@
 #include <vestige/fresnel.h>
 #include <vestige/microfacet.h>
 
+#include "support/forwarding_brdf.h"
+
 namespace vestige::test {
 
 /// A model that has derivatives by duals and all else from the plugin.
 template <class Model>
-class Twin : public DualBrdf<Model> {
+class Twin : public Forwarding<DualBrdf<Model>> {
  public:
-  explicit Twin(const Brdf& plugin) : plugin_(plugin) {}
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return plugin_.eval(p, toNext);
-  }
-  std::optional<ScatterSample> sample(const ScatterPoint& p,
-                                      ScatterNumbers n) const noexcept override {
-    return plugin_.sample(p, n);
-  }
-  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return plugin_.pdf(p, toNext);
-  }
-
- private:
-  const Brdf& plugin_;
+  using Forwarding<DualBrdf<Model>>::Forwarding;
 };
 
 template <class T>

@@ -15,7 +15,8 @@ extern "C" struct VestigeError {
 /// refused with a reason, not a crash.
 /// SDK 1: first release.   (each later version: one line saying what changed)
 /// SDK 2: SurfacePoint has second derivatives; Host::note(); `lacks`, which derivatives are
-/// missing.
+/// missing; Light::usesSpread() and LightHit::spread; SceneView's texels() and usesFootprint();
+/// Parameter::isNonlinear.
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended

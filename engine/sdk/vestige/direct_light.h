@@ -26,15 +26,15 @@ inline Rgb metLight(const SceneView& scene, const Surface& s, const DrawnRay& ra
   return powerHeuristic(ray.density, rival) * scene.emitted(s, ray.from);
 }
 
-/// What lights at infinity add to a ray that left the scene. `spread`: how the direction moves over
-/// the path's footprint; only rays without a rival may be filtered [MATH T7].
+/// What lights at infinity add to a ray that left the scene. `spread`: two vectors across the
+/// direction over which they are averaged, if any.
 inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 direction,
-                      const Vec3 spread[2]) noexcept {
+                      const Vec3* spread = nullptr) noexcept {
   Rgb sum;
   for (const int i : scene.infiniteLights()) {
     const Light& light = *scene.lights()[std::size_t(i)];
     LightHit hit{ray.from, direction, kInfinity, {}, {}, {}};
-    if (ray.isUnrivalled() && spread) hit.spread[0] = spread[0], hit.spread[1] = spread[1];
+    if (spread) hit.spread[0] = spread[0], hit.spread[1] = spread[1];
     const Real rival = ray.lightSamples * scene.lightChance(i) * light.pdf(hit);
     sum += powerHeuristic(ray.density, rival) * light.eval(hit);
   }

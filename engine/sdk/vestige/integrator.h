@@ -207,8 +207,9 @@ struct VertexDifferentials {
 struct PathVertex {
   Surface surface;
   Vec3 toPrev;
-  Rgb throughput;          ///< on arrival
-  const char* event = "";  ///< "scatter", "pass", "end", "escape", "absorbed", "roulette"
+  Rgb throughput;  ///< on arrival
+  const char* event =
+      "";  ///< "scatter", "pass", "end", "absorbed"; no surface: "escape", "roulette"
   std::optional<ScatterSample> scattered;
   Vec2 texels;  ///< SceneView::texels()
   VertexDifferentials differentials;

@@ -2,6 +2,7 @@
 // What an integrator tells about a path on its way, for those who asked: footprint AOVs, and the
 // record that `inspect` prints and the window draws. Costs nothing where nobody did.
 #pragma once
+#include <vestige/direct_light.h>
 #include <vestige/footprint.h>
 
 namespace vestige {
@@ -16,6 +17,18 @@ template <int Lanes>
 Footprint regionAt(const SceneView& scene, const Surface& s,
                    const PathFootprint<Lanes>* f) noexcept {
   return f && scene.usesFootprint(s) ? f->footprint() : Footprint{};
+}
+
+/// What lights at infinity add to a ray that left the scene, filtered over the directions that the
+/// path stands for. Rays that had a rival are not: next-event estimation looked at a point [MATH
+/// T7].
+template <int Lanes>
+Rgb filteredBackground(const SceneView& scene, const DrawnRay& ray, Vec3 direction,
+                       const PathFootprint<Lanes>* f) noexcept {
+  if (!f || !ray.isUnrivalled()) return background(scene, ray, direction);
+  Vec3 spread[2];
+  f->directions(spread);
+  return background(scene, ray, direction, spread);
 }
 
 /// Diameter of everything finite; infinite where there is nothing finite.
@@ -89,11 +102,11 @@ class PathReport {
     if (record_) record_->add(vertex(s, toPrev, throughput, event, f, std::nullopt));
   }
 
-  /// The path left the scene.
-  void escape(Vec3 direction, Rgb throughput) noexcept {
+  /// The path left the scene ("escape"), or roulette ended it on its way ("roulette").
+  void gone(const char* event, Vec3 direction, Rgb throughput) noexcept {
     if (!record_) return;
     PathVertex v;
-    v.toPrev = -direction, v.throughput = throughput, v.event = "escape";
+    v.toPrev = -direction, v.throughput = throughput, v.event = event;
     record_->add(v);
   }
 
