@@ -110,3 +110,51 @@ TEST_CASE("a footprint asked of an integrator that has none is a warning", "[app
   CHECK(r.exit == 0);
   CHECK_THAT(r.err, containsText("integrator normals has no footprints"));
 }
+
+namespace {
+
+/// kPlane under a ceiling, so that paths have a second vertex.
+std::string room(const std::string& footprint) {
+  std::string text = kPlane;
+  text.replace(text.find("depth 3"), 7, "depth 3 footprint " + footprint);
+  return text + "plane { -y, -3 brdf lambert { diffuse pigment checker { rgb 0.2, rgb 0.8 } } }";
+}
+
+}  // namespace
+
+TEST_CASE("the cones of other renderers open by their own rules", "[app]") {
+  const Folder folder;
+  for (const std::string bound : {"cone_roughness", "cone_density"}) {
+    const Run r = vestige(
+        {"inspect", folder.write("a.scene", room(bound)), "31", "31", "--spp", "16", "--json"});
+    REQUIRE(r.exit == 0);
+    const auto v = nlohmann::json::parse(r.out)["vertices"];
+    REQUIRE(v.size() >= 2);
+    const double start = 4.0 / 64 / 4;  // a pixel's share among 16, on the plane
+    CHECK(v[0]["footprint"]["size"].get<double>() == Approx(start).epsilon(1e-2));
+    // A matt surface is as rough as can be: 1 rad.
+    const double pdf = v[0]["scatter"]["pdf"], distance = v[1]["distance"];
+    const double spread = bound == "cone_roughness" ? 1 : 1 / (8 * std::sqrt(pdf));
+    const double cosine = 3 / distance;
+    CHECK(v[1]["footprint"]["size"].get<double>() ==
+          Approx((start + spread * distance) / std::sqrt(cosine)).epsilon(1e-2));
+  }
+}
+
+TEST_CASE("a limit of the score lets matt surfaces be", "[app]") {
+  const Folder folder;
+  const auto deltas = [&](const std::string& of) {
+    const std::string scene =
+        folder.write("a.scene", room("safe { limit 0.001 of \"" + of + "\" }"));
+    const Run r = vestige({"inspect", scene, "31", "31", "--sample", "15", "--json"});
+    INFO(r.err);
+    REQUIRE(r.exit == 0);
+    const auto d = nlohmann::json::parse(r.out)["vertices"][1]["differentials"];
+    REQUIRE(d.size() == 4);
+    return std::pair(d[2]["delta"].get<double>(), d[3]["delta"].get<double>());
+  };
+  const double bound = std::pow(16, -0.75);
+  CHECK(deltas("score").first == Approx(bound).epsilon(1e-3));
+  CHECK(deltas("score").second == Approx(bound).epsilon(1e-3));
+  CHECK(std::min(deltas("contribution").first, deltas("contribution").second) < bound / 2);
+}

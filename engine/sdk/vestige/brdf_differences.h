@@ -96,10 +96,14 @@ inline ScatterJacobian ofSample(const Brdf& brdf, const ScatterPoint& p,
   return j;
 }
 
-inline LogGradient ofLogValue(const Brdf& brdf, const ScatterPoint& p, Vec3 toNext) noexcept {
+/// Of the log of a positive function of both directions, value(point, toNext), about as smooth as
+/// the BRDF's density. Zero where it is zero.
+template <class Value>
+LogGradient ofLog(const Value& value, const Brdf& brdf, const ScatterPoint& p,
+                  Vec3 toNext) noexcept {
   const auto logValue = [&](const ScatterPoint& q, Vec3 next) -> std::optional<Real> {
     if (!(q.toPrev.z > 0) || (next.z > 0) != (toNext.z > 0)) return std::nullopt;
-    const Real f = luminance(brdf.eval(q, next));
+    const Real f = value(q, next);
     return f > std::numeric_limits<Real>::min() ? std::optional(std::log(f)) : std::nullopt;
   };
   const auto here = logValue(p, toNext);
@@ -123,6 +127,15 @@ inline LogGradient ofLogValue(const Brdf& brdf, const ScatterPoint& p, Vec3 toNe
           gradient(toNext, [&](Vec3 d) { return logValue(p, d); })};
 }
 
+inline LogGradient ofLogEval(const Brdf& brdf, const ScatterPoint& p, Vec3 toNext) noexcept {
+  const auto f = [&](const ScatterPoint& q, Vec3 next) { return luminance(brdf.eval(q, next)); };
+  return ofLog(f, brdf, p, toNext);
+}
+inline LogGradient ofLogPdf(const Brdf& brdf, const ScatterPoint& p, Vec3 toNext) noexcept {
+  const auto pdf = [&](const ScatterPoint& q, Vec3 next) { return brdf.pdf(q, next); };
+  return ofLog(pdf, brdf, p, toNext);
+}
+
 }  // namespace vestige::differences
 
 namespace vestige {
@@ -132,7 +145,7 @@ inline ScatterJacobian Brdf::sampleDerivatives(const ScatterPoint& p,
   return differences::ofSample(*this, p, n);
 }
 inline LogGradient Brdf::logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept {
-  return differences::ofLogValue(*this, p, toNext);
+  return differences::ofLogEval(*this, p, toNext);
 }
 
 }  // namespace vestige

@@ -12,13 +12,16 @@
 // footprint/differentials.h  the chain rule      footprint/deltas.h    how far a number may move
 // footprint/footprints.h     regions             footprint/reduce.h    many numbers into four
 // footprint/settings.h       the scene's word on all this
+// footprint/score.h          the gradient of F/p         footprint/cone.h      others' heuristics
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001.
 #pragma once
+#include <vestige/footprint/cone.h>
 #include <vestige/footprint/deltas.h>
 #include <vestige/footprint/differentials.h>
 #include <vestige/footprint/footprints.h>
 #include <vestige/footprint/reduce.h>
+#include <vestige/footprint/score.h>
 #include <vestige/footprint/settings.h>
 #include <vestige/integrator.h>
 
@@ -48,6 +51,7 @@ class PathFootprint {
     followsGradient_ = followsGradient;
     differentials_.begin(ray, direction, variables);
     count_.begin(index, declared, variables);
+    if (isCone(settings.deltas.bound)) cone_.begin(ray, commonDelta(settings.deltas, count_));
     if (!isFrozen()) return;
     const Real share = commonDelta(settings.deltas, count_);
     // Igehy's bound knows the film only, not the lens.
@@ -62,13 +66,14 @@ class PathFootprint {
     normal_ = s.geometricNormal;
     differentials_.transfer(s.distance, s.geometricNormal, std::max(size, s.distance));
     motion_.arrive(s, differentials_.direction());
+    cone_.travel(s.distance);
   }
 
   /// The region around the vertex, in world space and in uv: two vectors, full length (pigment.h).
   Footprint footprint() const noexcept {
     if (!settings_.isOn()) return {};
     const Frame f = Frame::around(normal_);
-    const Region r = region(f);
+    const Region r = isCone(settings_.deltas.bound) ? cone(f) : region(f);
     const auto world = [&](Vec2 p) { return p.x * f.s + p.y * f.t; };
     Footprint result{{world(r.a), world(r.b)}, {}};
     for (const int i : {0, 1})
@@ -78,6 +83,11 @@ class PathFootprint {
 
   /// The same for the direction of the ray that left the last surface: two vectors across it.
   void directions(Vec3 spread[2]) const noexcept {
+    const Frame& ray = differentials_.ray();
+    if (isCone(settings_.deltas.bound)) {
+      spread[0] = cone_.spread * ray.s, spread[1] = cone_.spread * ray.t;
+      return;
+    }
     Covariance m;  // of dD, delta multiplied in, across the ray
     const Four shared = common();
     for (int b = 0; b < differentials_.blocks(); ++b) {
@@ -85,8 +95,7 @@ class PathFootprint {
       m.add(deltas(b, shared), d.x, d.y);
     }
     const Region r = ellipse(m);
-    const Frame& f = differentials_.ray();
-    spread[0] = r.a.x * f.s + r.a.y * f.t, spread[1] = r.b.x * f.s + r.b.y * f.t;
+    spread[0] = r.a.x * ray.s + r.a.y * ray.t, spread[1] = r.b.x * ray.s + r.b.y * ray.t;
   }
 
   /// Exact area of the polygon that the differential vectors span (Minkowski sum) [MATH 2.1].
@@ -99,13 +108,19 @@ class PathFootprint {
                Strata strata = {}) noexcept {
     if (!drawn.local.specular && differentials_.size() > Lanes - 2) reduceNow();
     const int before = differentials_.size();
-    LogGradient log;
-    const bool steepens = followsGradient_ && !drawn.local.specular;
-    if (steepens) log = x.brdf->logGradient(x.point, drawn.local.toNext);
     const FrameMotion motion(s, motion_, x.frame);
-    differentials_.scatter({x.frame, drawn.toNext, motion_, motion},
-                           x.brdf->sampleDerivatives(x.point, numbers), steepens ? &log : nullptr,
-                           drawn.local.specular);
+    const ScatterEvent event{x.frame, drawn.toNext, motion_, motion};
+    EventGradient gradient;
+    const bool steepens = followsGradient_ && !drawn.local.specular;
+    if (steepens)
+      gradient =
+          settings_.limited == Limited::score
+              ? scoreGradient(event, *x.brdf, x.point, drawn.local.toNext)
+              : contributionGradient(event, x.brdf->logGradient(x.point, drawn.local.toNext));
+    differentials_.scatter(event, x.brdf->sampleDerivatives(x.point, numbers),
+                           steepens ? &gradient : nullptr, drawn.local.specular);
+    if (isCone(settings_.deltas.bound))
+      cone_.scatter(settings_.deltas.bound, x, drawn.local, numbers);
     count_.chance(drawn.local.lobeChance);
     count_.split(strata.u * strata.v);
     if (drawn.local.specular) return;
@@ -161,6 +176,14 @@ class PathFootprint {
     if (j < Lanes) frozen_[j / 4] = detail::withLane(frozen_[j / 4], j % 4, delta);
   }
 
+  /// The cone's round section, slid into the tangent plane.
+  Region cone(const Frame& f) const noexcept {
+    const auto across = [&](Vec3 slide) {
+      return cone_.width * Vec2{dot(slide, f.s), dot(slide, f.t)};
+    };
+    return {across(differentials_.slideS()), across(differentials_.slideT())};
+  }
+
   /// Two numbers are their own parallelogram; more become the ellipse, or PD01's pair.
   Region region(const Frame& f) const noexcept {
     const Four shared = common();
@@ -211,6 +234,7 @@ class PathFootprint {
   PathCount count_;
   FootprintSettings settings_;
   SurfaceMotion motion_;
+  Cone cone_;
   bool followsGradient_ = false;
   Vec3 normal_;  ///< geometric, of the surface arrived at
 };

@@ -12,11 +12,13 @@ namespace vestige {
 
 /// Where deltas come from; words of the scene language (docs/language.md, footprint).
 enum class Bound {
-  none,    ///< no footprints at all
-  pixel,   ///< the film's numbers only: Igehy's ray differentials
-  local,   ///< 1/sqrt of the samples drawn at that event: splitting [PD01 Sec. 3.1]
-  global,  ///< N_eff^(-1/M): all numbers share what the whole path has [PD01 Sec. 3.1]
-  safe,    ///< (own index in the pixel)^(-3/4): shrinks fast enough never to lose [MATH 3.2]
+  none,       ///< no footprints at all
+  pixel,      ///< the film's numbers only: Igehy's ray differentials
+  local,      ///< 1/sqrt of the samples drawn at that event: splitting [PD01 Sec. 3.1]
+  global,     ///< N_eff^(-1/M): all numbers share what the whole path has [PD01 Sec. 3.1]
+  roughness,  ///< a cone, opened by the lobe's roughness: for comparison (cone.h)
+  density,    ///< a cone, opened by the density of what was drawn: for comparison
+  safe,       ///< (own index in the pixel)^(-3/4): shrinks fast enough never to lose [MATH 3.2]
 };
 
 struct DeltaPolicy {
@@ -71,6 +73,8 @@ inline Real commonDelta(const DeltaPolicy& policy, const PathCount& count) noexc
       return 0;
     case Bound::pixel:
     case Bound::local:
+    case Bound::roughness:
+    case Bound::density:
       delta = 1 / std::sqrt(count.total());
       break;
     case Bound::global: {

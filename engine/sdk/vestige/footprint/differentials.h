@@ -93,6 +93,19 @@ struct ScatterEvent {
   const FrameMotion& motion;
 };
 
+/// How the log of the contribution changes at one event; local.
+struct EventGradient {
+  Vec3 byPrev;  ///< for a change of toPrev
+  Vec3 byNext;  ///< for a change of toNext
+};
+
+/// Of f cos [PD01 Eq. 13].
+inline EventGradient contributionGradient(const ScatterEvent& e, const LogGradient& log) noexcept {
+  const Real c = dot(e.frame.n, e.leaving);
+  const Real byCosine = std::copysign(1 / std::max(std::abs(c), kLeastCosine), c);
+  return {log.dPrev, log.dNext + Vec3{0, 0, byCosine}};
+}
+
 namespace detail {
 
 using FourBool = decltype(Four{} < Four{});
@@ -148,6 +161,8 @@ class Differentials {
   };
   const Block& block(int b) const noexcept { return blocks_[b]; }
   const Frame& ray() const noexcept { return ray_; }  ///< axes across the ray; n = D
+  Vec3 slideS() const noexcept { return slideS_; }    ///< dV on the surface, per unit along s
+  Vec3 slideT() const noexcept { return slideT_; }
   /// dV of the numbers from 4 b on, as components along two directions.
   FourVec2 verticesAlong(int b, Vec3 s, Vec3 t) const noexcept {
     const FourVec2& v = blocks_[b].v;
@@ -203,16 +218,15 @@ class Differentials {
 
   /// Through an event at fixed random numbers: chain rule on every differential, then, unless
   /// specular, the two numbers of this event are appended [PD01 Eq. 4, 5; MATH 1.5 to 1.10].
-  /// `jacobian` and `log` are the BRDF's, local; the cosine at the surface is accounted for here.
-  /// Without `log` g stays as it is: where nobody asks for it, and at specular events, whose weight
-  /// has no cosine and whose chance follows Fresnel's term.
+  /// Without `gradient` g stays as it is: where nobody asks for it, and at specular events, whose
+  /// weight has no cosine and whose chance follows Fresnel's term.
   ///
   /// The frame turns by omega; seen from it the path arrives from dp = F^T(-dD + omega x D), and
   /// leaves at F dPrev dp + omega x D' (DESIGN 3.2, MATH 1.7). Linear in dD across the ray and in
   /// the walk on the surface: so it is worked out for a unit of each, and every number takes its
   /// share of the four.
-  void scatter(const ScatterEvent& e, const ScatterJacobian& jacobian, const LogGradient* log,
-               bool specular) noexcept {
+  void scatter(const ScatterEvent& e, const ScatterJacobian& jacobian,
+               const EventGradient* gradient, bool specular) noexcept {
     const Frame& f = e.frame;
     const Frame next = Frame::around(e.leaving);
     const Vec3 nextS = f.toLocal(next.s), nextT = f.toLocal(next.t);
@@ -231,9 +245,9 @@ class Differentials {
       };
       x += along(next.t), y -= along(next.s);
     }
-    // d(log f cos) = gPrev . dp + (gNext + n / cos) . F^T(dD' - omega x D').
-    const Vec3 gNext = log ? contributionByNext(e, *log) : Vec3{};
-    const Four g = log ? dot(log->dPrev, dPrev) + dot(gNext, dNext) : four(0);
+    // Both cosines turn with the frame: d(log f cos) = gPrev . dp + gNext . F^T(dD' - omega x D').
+    const EventGradient steep = gradient ? *gradient : EventGradient{};
+    const Four g = gradient ? dot(steep.byPrev, dPrev) + dot(steep.byNext, dNext) : four(0);
 
     const auto bySlide = [&](Vec3 slide, const Four& column) {
       return dot(e.surface.du, slide) * column[2] + dot(e.surface.dv, slide) * column[3];
@@ -255,8 +269,8 @@ class Differentials {
     leave(next);
     if (specular) return;
     const Vec3 p = jacobian.du.c[0], q = jacobian.du.c[1];
-    appendPair({dot(nextS, p), dot(nextT, p)}, {dot(nextS, q), dot(nextT, q)}, dot(gNext, p),
-               dot(gNext, q));
+    appendPair({dot(nextS, p), dot(nextT, p)}, {dot(nextS, q), dot(nextT, q)}, dot(steep.byNext, p),
+               dot(steep.byNext, q));
   }
 
   /// The connection to a light in the direction e.leaving: how that direction and f cos L move, the
@@ -266,7 +280,7 @@ class Differentials {
                                    const LightLogGradient& lightLog) const noexcept {
     Differentials<Lanes + 4> all;
     all.begin({}, e.leaving, 0);
-    const Vec3 gNext = contributionByNext(e, log);
+    const Vec3 gNext = contributionGradient(e, log).byNext;
     for (int j = 0; j < size_; ++j) {
       const Vec3 moved = dVertex(j), dNext = light.dFrom * moved;
       const Vec3 omega =
@@ -324,11 +338,6 @@ class Differentials {
   static void narrow(Block& r) noexcept {
     const Four turn = r.d.x * r.d.x + r.d.y * r.d.y;
     r.longest = turn > r.longest ? turn : r.longest;
-  }
-
-  static Vec3 contributionByNext(const ScatterEvent& e, const LogGradient& log) noexcept {
-    const Real c = dot(e.frame.n, e.leaving);
-    return log.dNext + Vec3{0, 0, std::copysign(1 / std::max(std::abs(c), kLeastCosine), c)};
   }
 
   void leave(const Frame& ray) noexcept { ray_ = ray, slideS_ = ray.s, slideT_ = ray.t; }

@@ -12,8 +12,15 @@ enum class RegionShape {
   representative,  ///< PD01's two vectors
 };
 
+/// Whose relative change the limit watches.
+enum class Limited {
+  contribution,  ///< F, whatever was importance sampled
+  score,         ///< F/p [PD01 Sec. 3.4]
+};
+
 struct FootprintSettings {
   DeltaPolicy deltas;
+  Limited limited = Limited::contribution;
   RegionShape shape = RegionShape::covariance;
   bool isOn() const noexcept { return deltas.bound != Bound::none; }
 };
@@ -31,7 +38,9 @@ inline std::vector<Schema> footprintSchemas() {
        "N_eff^(-1/M): all numbers of a path share its samples (Suykens and Willems, 3.1)"},
       {"safe", "shrinks with the sample's own index: never worse than none, the default"},
       {"gradient", "the paper's bound for this integrator, with limit 0.7"},
-      {"paper", "the paper's bound and its representative vectors"}};
+      {"paper", "the paper's bound and its representative vectors"},
+      {"cone_roughness", "for comparison: a cone, max(spread, roughness) at every scattering"},
+      {"cone_density", "for comparison: a cone, max(spread, 1/(8 sqrt(pdf))) at every scattering"}};
   std::vector<Schema> all;
   for (const auto& [name, summary] : bounds) {
     Schema s{.kind = "footprint", .name = name, .summary = summary};
@@ -41,6 +50,10 @@ inline std::vector<Schema> footprintSchemas() {
                       .range(0, 1e6)
                       .doc("largest relative change of the contribution over a footprint; none "
                            "unless given"),
+                  choice("of", {"contribution", "score"})
+                      .unset()
+                      .doc("whose change is limited: that of F or of F/p, what importance sampling "
+                           "leaves (Suykens and Willems, 3.4)"),
                   choice("shape", {"covariance", "representative"})
                       .unset()
                       .doc("ellipse with the vectors' second moments, or the paper's two vectors"),
@@ -61,12 +74,14 @@ inline FootprintSettings footprintSettings(const Block* block, Bound native,
   if (!block) return fallback;
   FootprintSettings s;
   const std::string& word = block->plugin;
-  s.deltas.bound = word == "none"     ? Bound::none
-                   : word == "pixel"  ? Bound::pixel
-                   : word == "local"  ? Bound::local
-                   : word == "global" ? Bound::global
-                   : word == "safe"   ? Bound::safe
-                                      : native;
+  s.deltas.bound = word == "none"             ? Bound::none
+                   : word == "pixel"          ? Bound::pixel
+                   : word == "local"          ? Bound::local
+                   : word == "global"         ? Bound::global
+                   : word == "safe"           ? Bound::safe
+                   : word == "cone_roughness" ? Bound::roughness
+                   : word == "cone_density"   ? Bound::density
+                                              : native;
   if (word == "gradient") s.deltas.limit = kDefaultLimit;
   if (word == "paper") s.shape = RegionShape::representative;
   const auto number = [&](const char* name, Real& into) {
@@ -75,6 +90,8 @@ inline FootprintSettings footprintSettings(const Block* block, Bound native,
   number("limit", s.deltas.limit);
   number("scale", s.deltas.scale);
   number("exponent", s.deltas.exponent);
+  if (const Value* v = block->find("of"))
+    s.limited = v->text == "score" ? Limited::score : Limited::contribution;
   if (const Value* v = block->find("shape"))
     s.shape = v->text == "representative" ? RegionShape::representative : RegionShape::covariance;
   return s;
