@@ -25,8 +25,8 @@ class Granite final : public Pigment {
     Real t = kMean, share = 1;
     Patch p = scaled(Patch(at), 4);
     for (int i = 0; i < kOctaves; ++i, p = scaled(p, 2), share *= Real(0.5))
-      t += share * octaveOver(p, octaveSeed(seed_, i), kNoiseMeanAbs, kFiner,
-                              [](Real n) { return std::abs(n); });
+      t += share *
+           octaveOver(p, octaveSeed(seed_, i), kNoiseMeanAbs, [](Real n) { return std::abs(n); });
     return mixed(std::clamp(t, Real(0), Real(1)));
   }
 
@@ -35,7 +35,6 @@ class Granite final : public Pigment {
  private:
   static constexpr int kOctaves = 6;
   static constexpr Real kMean = kNoiseMeanAbs * (2 - Real(1) / 32);  // sum of 1/2^i
-  static constexpr Real kFiner = 2;  // |n| of normal n correlates about as the square
 
   Rgba mixed(Real t) const noexcept { return {first_ + t * (second_ - first_), 1}; }
 

@@ -132,32 +132,3 @@ TEST_CASE("few samples of a fine texture are quieter when filtered", "[footprint
   }
   CHECK(error("path { depth 5 }", "safe") < 0.9 * error("path { depth 5 }", "none"));
 }
-
-TEST_CASE("the default is never worse than no footprints", "[slow][footprint]") {
-  const char* const textures[] = {
-      "gradient { rgb 0.1, rgb 0.9 direction <0.3, 0, 0> }",
-      "checker { rgb 0.1, rgb 0.9 scale 0.7 }", "checker { rgb 0.1, rgb 0.9 scale 0.2 }",
-      "checker { rgb 0.1, rgb 0.9 scale 0.03 }", "granite { rgb 0.1, rgb 0.9 scale 0.5 }"};
-  for (const char* texture : textures)
-    for (const char* integrator : {"path { depth 4 }", "distributed { split 4 depth 3 }"}) {
-      const bool isTree = std::string(integrator).find("distributed") == 0;
-      const std::string scene = balls(texture, integrator, kNoiseless);
-      const Image reference = renderText(
-          scene, std::string("--footprint none --seed 99 --spp ") + (isTree ? "4096" : "16384"));
-      const double grace = std::pow(0.005 * meanOf(reference), 2);
-      for (const int spp : {1, 4, 16, 64, 256}) {
-        double none = 0, safe = 0;
-        const int seeds = spp > 64 ? 4 : 16;
-        for (int seed = 1; seed <= seeds; ++seed) {
-          const std::string how =
-              "--spp " + std::to_string(spp) + " --seed " + std::to_string(seed);
-          none += meanSquare(renderText(scene, how + " --footprint none"), reference) / seeds;
-          safe += meanSquare(renderText(scene, how + " --footprint safe"), reference) / seeds;
-        }
-        std::printf("never worse;%s;%s;%d;%.4g\n", texture, integrator, spp, none / safe);
-        INFO(texture << ", " << integrator << ", " << spp << ": none " << none << ", safe "
-                     << safe);
-        CHECK(safe <= none + grace);
-      }
-    }
-}
