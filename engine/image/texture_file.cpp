@@ -170,11 +170,16 @@ std::optional<TextureFacts> readTextureFile(const std::string& file, const Texel
     return std::nullopt;
   }
   const auto format = plan.isInteger() ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+  std::vector<float> tile(std::size_t(kTileSide) * kTileSide * plan.channels);
   const auto isLevel = [&](int index, int width, int height) {
     const OIIO::ImageSpec s = input->spec(0, index);
-    return s.width == width && s.height == height && s.nchannels == plan.channels &&
-           s.format == format && s.tile_width == kTileSide && s.tile_height == kTileSide &&
-           s.depth <= 1 && s.x == 0 && s.y == 0;
+    if (s.width != width || s.height != height || s.nchannels != plan.channels ||
+        s.format != format || s.tile_width != kTileSide || s.tile_height != kTileSide ||
+        s.depth > 1 || s.x != 0 || s.y != 0)
+      return false;
+    // What was cut off a file is missing in some level's last tile, even if all headers are there.
+    const int x = (width - 1) / kTileSide * kTileSide, y = (height - 1) / kTileSide * kTileSide;
+    return input->read_native_tile(0, index, x, y, 0, tile.data());
   };
   const auto facts = parsed(input->spec().get_string_attribute("ImageDescription"), key);
   if (!facts || !isLevel(0, plan.width, plan.height)) return std::nullopt;

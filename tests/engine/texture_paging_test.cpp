@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures that are paged in from files: they must show what textures in memory show, to the bit.
+#include <OpenImageIO/imagebufalgo.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -46,6 +49,7 @@ std::shared_ptr<const Texture> load(TextureStore& store, const std::string& file
   return texture;
 }
 
+/// At most 64 KB of codes.
 std::string noisePng(const TempFolder& folder, int width, int height, int channels, int bits,
                      unsigned seed = 1) {
   std::mt19937 random(seed);
@@ -146,4 +150,244 @@ TEST_CASE("a paged texture shows what one in memory shows, to the bit", "[textur
   SECTION("half with alpha") { compare(noiseExr(folder, 67, 129, {"R", "G", "B", "A"}, true)); }
   SECTION("float") { compare(noiseExr(folder, 129, 65, {"R", "G", "B"}, false, true)); }
   SECTION("float with alpha") { compare(noiseExr(folder, 33, 65, {"R", "G", "B", "A"}, false)); }
+}
+
+TEST_CASE("textures are held in order of request while the budget has room", "[texture][paging]") {
+  const TempFolder folder;
+  const CacheFolder cache;
+  const std::string files[] = {noisePng(folder, 100, 70, 3, 8), noisePng(folder, 61, 90, 1, 16),
+                               noisePng(folder, 50, 50, 4, 8, 2),
+                               noiseExr(folder, 45, 80, {"R", "G", "B"}, true),
+                               noiseExr(folder, 40, 83, {"R", "G", "B", "A"}, false)};
+  for (const std::string& file : files) {
+    INFO(file);
+    TextureStore all, exact, less;
+    load(all, file, Wrap::repeat);
+    CHECK(all.use().held == all.bytes());
+    exact.setBudget(all.bytes());
+    load(exact, file, Wrap::repeat);
+    CHECK(exact.bytes() == all.bytes());
+    CHECK(exact.use().paged == 0);
+    CHECK(exact.use().pagedLimit == 0);
+    less.setBudget(all.bytes() - 1);
+    load(less, file, Wrap::repeat);
+    load(less, file, Wrap::clamp);
+    CHECK(less.bytes() == 0);
+    CHECK(less.use().paged == 1);
+  }
+  // The large second one does not fit beside the first, the small third one does.
+  TextureStore first, third, store;
+  load(first, files[0], Wrap::repeat), load(third, files[2], Wrap::repeat);
+  const std::size_t budget = first.bytes() + third.bytes();
+  store.setBudget(budget);
+  load(store, files[0], Wrap::repeat);
+  load(store, noisePng(folder, 120, 110, 1, 16), Wrap::repeat);
+  load(store, files[2], Wrap::repeat);
+  CHECK(store.use().paged == 1);
+  CHECK(store.bytes() == budget);
+  CHECK(store.use().pagedLimit >= std::size_t(32) << 20);
+}
+
+TEST_CASE("a picture is converted once, by what it holds and its colour space",
+          "[texture][paging]") {
+  const TempFolder folder;
+  const CacheFolder cache;
+  const std::string file = noisePng(folder, 80, 80, 3, 8);
+  const auto page = [&](const std::string& name, const std::string& space = "") {
+    TextureStore store;
+    store.setBudget(0);
+    return load(store, name, Wrap::repeat, space)->mean();
+  };
+  const Rgba mean = page(file);
+  const std::string paged = cache.file();
+  const auto old = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  fs::last_write_time(paged, old);
+  fs::copy_file(file, folder / "copy.png");
+  CHECK(same(page(folder / "copy.png"), mean));
+  CHECK(fs::last_write_time(cache.file()) == old);
+  page(file, "raw");
+  CHECK((*cache).files() == 2);
+  fs::copy_file(noisePng(folder, 80, 80, 3, 8, 7), file, fs::copy_options::overwrite_existing);
+  CHECK(!same(page(file), mean));
+  CHECK((*cache).files() == 3);
+}
+
+TEST_CASE("a file in the cache that is not whole is made again", "[texture][paging]") {
+  const TempFolder folder;
+  const CacheFolder cache;
+  const std::string file = noisePng(folder, 150, 100, 3, 8);
+  compare(file);
+  const std::string paged = cache.file();
+  const auto size = double(fs::file_size(paged));
+  const auto checkMadeAgain = [&] {
+    compare(file);
+    CHECK(cache.file() == paged);
+  };
+  for (const double share : {0.0, 0.01, 0.5, 0.9, 0.999, 0.99998}) {
+    INFO(share);
+    fs::resize_file(paged, std::uintmax_t(share * size));
+    checkMadeAgain();
+  }
+  std::ofstream(paged) << "something else";
+  checkMadeAgain();
+  {  // a whole one, of the same size in pixels, that belongs to another picture
+    const std::string other = noisePng(folder, 150, 100, 3, 8, 9);
+    compare(other);
+    for (const auto& entry : fs::directory_iterator((*cache).path()))
+      if (entry.path() != paged) fs::rename(entry.path(), paged);
+    checkMadeAgain();
+  }
+}
+
+TEST_CASE("what cannot be read while rendering shows the mean, and is counted",
+          "[texture][paging]") {
+  const TempFolder folder;
+  const CacheFolder cache;
+  const std::string file = noisePng(folder, 200, 100, 3, 8);
+  compare(file);
+  const std::string paged = cache.file();
+  {  // spoils tiles, but not the directories between them
+    std::fstream out(paged, std::ios::in | std::ios::out | std::ios::binary);
+    out.seekp(2000);
+    out << std::string(12000, 'x');
+  }
+  {
+    TextureStore store;
+    store.setBudget(0);
+    const auto t = load(store, file, Wrap::repeat);
+    std::mt19937 random(3);
+    int means = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const Rgba found = RandomLookup(*t, random).in(*t);
+      means += same(found, t->mean());
+      CHECK(std::isfinite(found.colour.r));
+    }
+    CHECK(means > 0);
+    CHECK(store.use().readErrors > 0);
+    CHECK(store.use().unreadable == paged);
+  }
+  CHECK(!fs::exists(paged));
+  compare(file);
+}
+
+TEST_CASE("without a place for its file a texture is held in memory, with a warning",
+          "[texture][paging]") {
+  const TempFolder folder;
+  const CacheFolder cache;
+  const std::string file = noisePng(folder, 150, 100, 3, 8);
+  TextureStore memory;
+  const auto held = load(memory, file, Wrap::repeat);
+  const auto checkHeld = [&](const std::string& why) {
+    TextureStore store;
+    store.setBudget(0);
+    const auto t = load(store, file, Wrap::repeat);
+    const std::string warning = store.takeWarning();
+    CHECK_THAT(warning, containsText(file) && containsText(why) && containsText("held in memory"));
+    CHECK(warning.find('\n') == std::string::npos);
+    CHECK(store.takeWarning() == "");
+    CHECK(store.bytes() == memory.bytes());
+    CHECK(store.use().paged == 0);
+    std::mt19937 random(3);
+    const RandomLookup look(*held, random);
+    CHECK(same(look.in(*t), look.in(*held)));
+  };
+  SECTION("no folder can be made") {
+    std::ofstream(folder / "file") << "not a folder";
+    setenv("VESTIGE_CACHE", (folder / "file/below").c_str(), 1);
+    checkHeld("file/below");
+  }
+  SECTION("no folder is known") {
+    unsetenv("VESTIGE_CACHE");
+    const std::string home = getenv("HOME") ? getenv("HOME") : "";
+    const std::string xdg = getenv("XDG_CACHE_HOME") ? getenv("XDG_CACHE_HOME") : "";
+    unsetenv("HOME"), unsetenv("XDG_CACHE_HOME");
+    checkHeld("VESTIGE_CACHE");
+    if (!home.empty()) setenv("HOME", home.c_str(), 1);
+    if (!xdg.empty()) setenv("XDG_CACHE_HOME", xdg.c_str(), 1);
+  }
+  SECTION("the disk is full") {
+    rlimit before{}, tight{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    tight = before, tight.rlim_cur = 30000;
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &tight);
+    checkHeld("cannot be paged");
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    CHECK((*cache).files() == 0);
+  }
+}
+
+namespace {
+
+/// Floats, 34 MB as they are paged: two do not fit into the least cache.
+std::string largeExr(const TempFolder& folder, int number) {
+  constexpr int kWidth = 2048, kHeight = 1024;
+  Image image{kWidth, kHeight, {"R", "G", "B"}, {}, {}};
+  image.pixels.resize(std::size_t(kWidth) * kHeight * 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = float((i / 3 * std::size_t(number + 7)) % 1021);
+  std::string error;
+  const std::string file = folder / ("large" + std::to_string(number) + ".exr");
+  REQUIRE(writeImage(file, image, {}, error));
+  return file;
+}
+
+/// Of lookups all over both textures; small ones, so that the finest levels are used.
+std::vector<Rgba> lookAround(const Texture& a, const Texture& b) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  std::vector<Rgba> found;
+  for (int i = 0; i < 6000; ++i) {
+    const Texture& t = i % 2 ? a : b;
+    const double length = 4 * unit(random);
+    const Vec2 d[2] = {{Real(length / t.width()), 0}, {0, Real(length / t.height())}};
+    found.push_back(t.lookup({Real(unit(random)), Real(unit(random))}, d));
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("many pages share little memory, and threads see the same bits", "[texture][paging]") {
+  const TempFolder folder;
+  const CacheFolder cache;
+  const std::string one = largeExr(folder, 0), two = largeExr(folder, 1);
+  TextureStore memory, pages;
+  const auto expected =
+      lookAround(*load(memory, one, Wrap::repeat), *load(memory, two, Wrap::repeat));
+  pages.setBudget(1000);
+  const auto a = load(pages, one, Wrap::repeat), b = load(pages, two, Wrap::repeat);
+  REQUIRE(pages.use().paged == 2);
+  CHECK(pages.use().pagedLimit == std::size_t(32) << 20);
+  std::vector<Rgba> found[3];
+  std::vector<std::thread> threads;
+  for (auto& list : found) threads.emplace_back([&] { list = lookAround(*a, *b); });
+  for (std::thread& t : threads) t.join();
+  for (const auto& list : found) {
+    REQUIRE(list.size() == expected.size());
+    int wrong = 0;
+    for (std::size_t i = 0; i < list.size(); ++i) wrong += !same(list[i], expected[i]);
+    CHECK(wrong == 0);
+  }
+  // A tile that is in use stays beyond the limit: a few a thread, 48 KB each.
+  CHECK(pages.use().pagedUsed > std::size_t(28) << 20);
+  CHECK(pages.use().pagedUsed < std::size_t(34) << 20);
+  CHECK(pages.use().readErrors == 0);
+}
+
+TEST_CASE("a .tx is a picture as any other", "[texture][paging]") {
+  const TempFolder folder;
+  const CacheFolder cache;
+  const std::string file = noisePng(folder, 100, 60, 3, 8), tx = folder / "made.tx";
+  REQUIRE(OIIO::ImageBufAlgo::make_texture(OIIO::ImageBufAlgo::MakeTxTexture, file, tx, {}));
+  TextureStore store;
+  const auto png = load(store, file, Wrap::repeat), made = load(store, tx, Wrap::repeat);
+  REQUIRE(made->width() == 100);
+  REQUIRE(made->height() == 60);
+  int wrong = 0;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 100; ++x) wrong += !same(png->texel(x, y), made->texel(x, y));
+  CHECK(wrong == 0);
+  compare(tx);
 }
