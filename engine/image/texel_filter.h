@@ -93,7 +93,8 @@ class FilteredTexture final : public Texture {
     return reader.failed() ? source_.mean() : found;
   }
 
-  Rgba bilinear(Reader& reader, Vec2 uv) const noexcept {
+  /// Most lookups are this alone, and the call would be a sixth of it.
+  [[gnu::always_inline]] Rgba bilinear(Reader& reader, Vec2 uv) const noexcept {
     const Neighbours x = neighbours(uv.x, width_, wrapU_), y = neighbours(uv.y, height_, wrapV_);
     const auto a = reader.texel(x.first, y.first), b = reader.texel(x.second, y.first);
     const auto c = reader.texel(x.first, y.second), d = reader.texel(x.second, y.second);
