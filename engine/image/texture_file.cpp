@@ -7,11 +7,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <locale>
 #include <sstream>
+#include <type_traits>
+#include <vector>
 
 #include "engine/image/picture_file.h"
 
@@ -54,6 +59,9 @@ OIIO::ImageSpec specOf(int width, int height, int channels, OIIO::TypeDesc forma
   for (int c = 0; c < channels; ++c) spec.channelnames[std::size_t(c)] = fmt::format("c{}", c);
   spec.attribute("textureformat", "Plain Texture");  // its pictures are levels of one
   spec.attribute("compression", "zip");
+  // The library decides by the first level alone, and all of them may exceed the 4 GB of plain
+  // TIFF.
+  spec.attribute("tiff:bigtiff", 1);
   return spec;
 }
 
@@ -142,7 +150,8 @@ void sweep(const fs::path& folder) {
 bool writeTextureFile(const std::string& file, const Texels& texels, const TexelPlan& plan,
                       const std::string& key, std::string& why) {
   const fs::path folder = fs::path(file).parent_path();
-  const std::string draft = fmt::format("{}.{}.part", file, getpid());
+  static std::atomic<int> count = 0;
+  const std::string draft = fmt::format("{}.{}-{}.part", file, getpid(), ++count);
   sweep(folder);
   const auto out = OIIO::ImageOutput::create("tif");
   if (!out)

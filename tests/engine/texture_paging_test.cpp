@@ -212,6 +212,39 @@ TEST_CASE("a picture is converted once, by what it holds and its colour space",
   CHECK((*cache).files() == 3);
 }
 
+TEST_CASE("two that convert the same picture at once do not disturb each other",
+          "[texture][paging]") {
+  const TempFolder folder;
+  const CacheFolder cache;
+  const std::string file = noisePng(folder, 140, 140, 3, 8);
+  TextureStore memory;
+  const auto held = load(memory, file, Wrap::repeat);
+  for (int round = 0; round < 5; ++round) {
+    for (const auto& entry : fs::directory_iterator((*cache).path())) fs::remove(entry);
+    std::string errors[4];
+    int wrong[4] = {};
+    std::vector<std::thread> threads;
+    for (int k = 0; k < 4; ++k)
+      threads.emplace_back([&, k] {
+        TextureStore store;
+        store.setBudget(0);
+        const auto t = store.texture(file, {file, {}, ""}, errors[k]);
+        errors[k] += store.takeWarning();
+        std::mt19937 random(3);
+        for (int i = 0; t && i < 300; ++i) {
+          const RandomLookup look(*held, random);
+          wrong[k] += !same(look.in(*t), look.in(*held));
+        }
+      });
+    for (std::thread& t : threads) t.join();
+    for (int k = 0; k < 4; ++k) {
+      CHECK(errors[k] == "");
+      CHECK(wrong[k] == 0);
+    }
+    CHECK((*cache).files() == 1);
+  }
+}
+
 TEST_CASE("a file in the cache that is not whole is made again", "[texture][paging]") {
   const TempFolder folder;
   const CacheFolder cache;
