@@ -43,17 +43,22 @@ OIIO::ImageCache::Tile* PagedFile::tile(int level, int x, int y, OIIO::TypeDesc:
                                         const void*& numbers) const noexcept {
   OIIO::ImageCache& library = cache_->library();
   try {
-    if (OIIO::ImageCache::Tile* tile =
-            library.get_tile(handle_, cache_->thread(), 0, level, x, y, 0)) {
+    // Asked again for what it failed to read, the library may answer with a tile never filled.
+    const bool bad = failures_ > 0 && isBad(level, x, y);
+    OIIO::ImageCache::Tile* tile =
+        bad ? nullptr : library.get_tile(handle_, cache_->thread(), 0, level, x, y, 0);
+    if (tile) {
       OIIO::TypeDesc held;
       numbers = library.tile_pixels(tile, held);
       if (numbers && held.basetype == format) return tile;
       library.release_tile(tile);
     }
     library.geterror();  // else the library's messages pile up
-  } catch (...) {        // no memory for the tile, and none for a message
+    const std::lock_guard lock(badTilesMutex_);
+    if (badTiles_.emplace(level, x, y).second) ++failures_;
+  } catch (...) {  // no memory for the tile, and none for a message
+    ++failures_;
   }
-  failures_.fetch_add(1, std::memory_order_relaxed);
   static float nothing[kTileSide * kTileSide * 4];  // never written
   numbers = nothing;
   return nullptr;

@@ -7,7 +7,10 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/image/texture_file.h"
@@ -58,15 +61,16 @@ class PagedFile {
   const TextureFacts facts;
   const std::vector<Level> levels;
 
-  /// The tile around a place, to be given back, and its numbers. Null, and counted, if it cannot be
-  /// read or holds another kind of numbers than `format`; they are zeros then [any thread].
+  /// The tile that begins at a place, to be given back, and its numbers. Null, and counted, if it
+  /// cannot be read or holds another kind of numbers than `format`; they are zeros then [any
+  /// thread].
   OIIO::ImageCache::Tile* tile(int level, int x, int y, OIIO::TypeDesc::BASETYPE format,
                                const void*& numbers) const noexcept;
   void giveBack(OIIO::ImageCache::Tile* tile) const noexcept {
     cache_->library().release_tile(tile);
   }
 
-  /// How often a tile could not be read.
+  /// How many tiles could not be read.
   std::size_t failures() const noexcept { return failures_; }
   const std::string& file() const noexcept { return file_; }
 
@@ -75,6 +79,13 @@ class PagedFile {
   std::string file_;
   OIIO::ImageCache::ImageHandle* handle_;
   mutable std::atomic<std::size_t> failures_ = 0;
+  mutable std::mutex badTilesMutex_;
+  mutable std::set<std::tuple<int, int, int>> badTiles_;  ///< level, x, y as asked for
+
+  bool isBad(int level, int x, int y) const {
+    const std::lock_guard lock(badTilesMutex_);
+    return badTiles_.contains({level, x, y});
+  }
 };
 
 }  // namespace vestige

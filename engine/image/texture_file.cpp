@@ -69,17 +69,23 @@ OIIO::ImageSpec specOf(int width, int height, int channels, OIIO::TypeDesc forma
 template <class Number>
 using FillRow = std::function<void(int y, Number* row)>;
 
-/// A row of tiles at a time. False if the library says so.
+/// A row of tiles at a time. What lies beyond the edge is 0: left to the library it would be
+/// whatever memory held. False if the library says so.
 template <class Number>
 bool writeLevel(OIIO::ImageOutput& out, const FillRow<Number>& fillRow) {
-  const OIIO::ImageSpec& spec = out.spec();
-  const std::size_t row = std::size_t(spec.width) * spec.nchannels;
-  std::vector<Number> numbers(row * kTileSide);
+  const OIIO::ImageSpec spec = out.spec();
+  const std::size_t side = std::size_t(kTileSide) * spec.nchannels;  // of a tile, in numbers
+  const std::size_t columns = std::size_t((spec.width + kTileSide - 1) / kTileSide);
+  std::vector<Number> rows(side * columns * kTileSide), tile(side * kTileSide);
   for (int y = 0; y < spec.height; y += kTileSide) {
-    const int end = std::min(y + kTileSide, spec.height);
-    for (int i = y; i < end; ++i) fillRow(i, &numbers[row * (i - y)]);
-    if (!out.write_tiles(0, spec.width, y, end, 0, 1, kFormat<Number>, numbers.data()))
-      return false;
+    std::fill(rows.begin(), rows.end(), Number(0));
+    for (int i = y; i < std::min(y + kTileSide, spec.height); ++i)
+      fillRow(i, &rows[side * columns * (i - y)]);
+    for (std::size_t x = 0; x < columns; ++x) {
+      for (std::size_t i = 0; i < kTileSide; ++i)
+        std::copy_n(&rows[side * (columns * i + x)], side, &tile[side * i]);
+      if (!out.write_tile(int(x) * kTileSide, y, 0, kFormat<Number>, tile.data())) return false;
+    }
   }
   return true;
 }
