@@ -30,6 +30,7 @@ Options
 
 Environment
   VESTIGE_PLUGIN_PATH, VESTIGE_INCLUDE_PATH   more folders, separated by ':'
+  VESTIGE_CACHE     folder for files that can be made again (~/.cache/vestige)
   OCIO              OpenColorIO configuration in place of the built-in one
   NO_COLOR          no colours on the terminal
 

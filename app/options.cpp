@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -75,6 +76,24 @@ std::optional<double> parseDuration(const std::string& text) {
   }
   if (!(total > 0) || !std::isfinite(total)) return std::nullopt;
   return total;
+}
+
+std::optional<std::size_t> parseBytes(const std::string& text) {
+  static constexpr std::pair<char, int> kUnits[] = {{'K', 10}, {'M', 20}, {'G', 30}};
+  std::string digits = text;
+  double scale = 1;
+  for (const auto& [unit, shift] : kUnits)
+    if (!text.empty() && std::toupper(static_cast<unsigned char>(text.back())) == unit) {
+      digits.pop_back();
+      scale = std::ldexp(1.0, shift);
+    }
+  if (digits.find_first_not_of("0123456789.") != std::string::npos) return std::nullopt;
+  const auto count = parse<double>(digits);
+  if (!count) return std::nullopt;
+  const double bytes = *count * scale;
+  if (bytes > std::ldexp(1.0, 60) || (scale == 1 && bytes != std::floor(bytes)))
+    return std::nullopt;
+  return std::size_t(bytes);
 }
 
 bool parseCrop(const std::string& text, double crop[4]) {

@@ -42,6 +42,14 @@ void warnAboutCounters(const Counters& c) {
                      kFilmLimit, c.clamped == 1 ? "was" : "were"));
 }
 
+void warnAboutTextures(const TextureUse& t) {
+  if (t.readErrors > 0)
+    warn(
+        fmt::format("{} of '{}' could not be read while rendering, and the picture shows mean "
+                    "colours there; the file is made anew the next time",
+                    count((long long)t.readErrors, "piece"), t.unreadable));
+}
+
 void reportWritten(const RenderRequest& r, const Statistics& s,
                    const std::vector<std::string>& files) {
   const ProgressStyle style = progressStyle(r.progress);
@@ -76,7 +84,7 @@ Statistics statisticsOf(const RenderRequest& r, const LoadedScene& loaded, const
   s.importSeconds = importSeconds;
   s.loadSeconds = loaded.loadSeconds, s.buildSeconds = loaded.buildSeconds;
   s.render = result, s.seed = r.render.seed;
-  s.textureBytes = loaded.scene->textureBytes(), s.triangles = loaded.scene->triangles();
+  s.textures = loaded.scene->textureUse(), s.triangles = loaded.scene->triangles();
   s.width = crop.x1 - crop.x0, s.height = crop.y1 - crop.y0;
   return s;
 }
@@ -99,6 +107,7 @@ int runRender(const RenderRequest& r) {
   const RenderResult result = renderFilm(r, *loaded.scene, film);
   warnAboutCounters(result.counters);
   const Statistics stats = statisticsOf(r, loaded, film, result, importSeconds);
+  warnAboutTextures(stats.textures);
   if (result.counters.paths == 0) {
     complain("stopped before the first sample, so there is no picture to write");
     return result.end == RenderEnd::cancelled ? kInterrupted : kFine;

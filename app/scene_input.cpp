@@ -152,6 +152,22 @@ void addBuildOptions(CLI::App& command, BuildOptions& build, const std::string& 
       ->take_last()
       ->type_name("BOUND")
       ->group(group);
+  const auto memory = [&](const std::string& text) {
+    const auto bytes = parseBytes(text);
+    if (!bytes)
+      throw Failure(kCommandLineWrong,
+                    fmt::format("--texture-memory wants a size as 512M, 2G or 1.5G or a whole "
+                                "number of bytes, found '{}'",
+                                text));
+    build.textureMemory = *bytes;
+  };
+  command
+      .add_option_function<std::string>(
+          "--texture-memory", memory,
+          "for all textures; what does not fit is read piece by piece (4G)")
+      ->take_last()
+      ->type_name("SIZE")
+      ->group(group);
 }
 
 namespace {

@@ -43,7 +43,8 @@ struct LoadedScene {
 enum class Stage { text, built };
 LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage stage,
                       const BuildOptions& build = {});
-/// --integrator and --footprint, in place of the scene's own.
+/// --integrator and --footprint, in place of the scene's own, and --texture-memory. `build` must
+/// outlive the parsing.
 void addBuildOptions(CLI::App& command, BuildOptions& build, const std::string& group);
 /// Failure if one of them names nothing known.
 void checkBuildOptions(const BuildOptions& build, const Registry& registry);

@@ -48,7 +48,11 @@ std::string statisticsJson(const Statistics& s) {
                      {"nonfinite", c.nonFinite},
                      {"clamped", c.clamped},
                      {"triangles", s.triangles},
-                     {"texture_bytes", s.textureBytes},
+                     {"texture_bytes", s.textures.held},
+                     {"textures_paged", s.textures.paged},
+                     {"texture_cache_bytes", s.textures.pagedLimit},
+                     {"texture_cache_used_bytes", s.textures.pagedUsed},
+                     {"texture_read_errors", s.textures.readErrors},
                      {"peak_memory_bytes", peakMemoryBytes()}};
   return json.dump(2);
 }

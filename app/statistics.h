@@ -14,7 +14,8 @@ struct Statistics {
   double loadSeconds = 0;    ///< reading the text
   double buildSeconds = 0;   ///< files, textures, acceleration structure
   RenderResult render{};
-  std::size_t textureBytes = 0, triangles = 0;
+  TextureUse textures;  ///< after rendering
+  std::size_t triangles = 0;
   int width = 0, height = 0;  ///< pixels that were rendered
   std::uint32_t seed = 0;
 };

@@ -47,16 +47,36 @@ bool writeImage(const std::string& file, const Image& image, const WriteOptions&
 /// rendering.
 bool canWrite(const std::string& file, std::string& error);
 
+/// What textures cost, and what went wrong with them.
+struct TextureUse {
+  std::size_t held = 0;        ///< bytes of textures that are in memory whole
+  int paged = 0;               ///< how many are read from files piece by piece
+  std::size_t pagedLimit = 0;  ///< bytes that their pieces may take together; 0: none is paged
+  std::size_t pagedUsed = 0;   ///< bytes that they take now
+  std::size_t readErrors = 0;  ///< pieces that could not be read; the texture's mean was seen there
+  std::string unreadable;      ///< one file of those
+};
+
 /// Reads textures once, converts them to rendering space (linear Rec. 709) by their metadata or the
-/// named colour space.
+/// named colour space. In order of request they are held in memory as long as the budget has room
+/// for the whole of one; others are paged: written into the cache folder once, as .tx, and read
+/// from there when looked up. Lookups give the same bits either way.
 class TextureStore {
  public:
+  static constexpr std::size_t kDefaultBudget = std::size_t(4) << 30;
+
   TextureStore();
   ~TextureStore();
+  /// Bytes for all textures together, for those requested from now on. Paged ones share what is
+  /// left of it, but never less than 32 MB.
+  void setBudget(std::size_t bytes);
   /// `file` is an absolute name. The same object for the same request; null with `error`.
   std::shared_ptr<const Texture> texture(const std::string& file, const TextureRequest& request,
                                          std::string& error);
-  /// Bytes held by all textures.
+  /// What the user should know of the last texture though it was loaded, or "".
+  std::string takeWarning();
+  TextureUse use() const;
+  /// Bytes held by all textures but paged ones.
   std::size_t bytes() const;
   /// Numbers in all textures that were NaN or infinite; they read as 0.
   std::size_t nonFinite() const;

@@ -50,28 +50,6 @@ float addedSpread(const std::vector<Span>& list, std::int32_t fine, std::int32_t
   return float(sum / coarse);
 }
 
-std::vector<Level> chain(std::int32_t width, std::int32_t height, int channels) {
-  std::vector<Level> levels;
-  Level last;
-  last.width = width, last.height = height;
-  std::size_t start = 0;
-  while (last.width > 1 || last.height > 1) {
-    Level next;
-    next.width = (last.width + 1) / 2, next.height = (last.height + 1) / 2;
-    next.start = start;
-    next.scaleX = float(width) / float(next.width),
-    next.scaleY = float(height) / float(next.height);
-    const auto spread = [](std::int32_t fine, std::int32_t coarse, float scale) {
-      return scale * scale * addedSpread(spans(fine, coarse), fine, coarse);
-    };
-    next.spreadX = last.spreadX + spread(last.width, next.width, last.scaleX);
-    next.spreadY = last.spreadY + spread(last.height, next.height, last.scaleY);
-    start += std::size_t(next.width + 2) * (next.height + 2) * channels;
-    levels.push_back(last = next);
-  }
-  return levels;
-}
-
 /// Makes a level from the next finer one. `readRow` writes a row of that, borders included.
 template <class Number>
 void halve(const Level& to, std::int32_t fineWidth, std::int32_t fineHeight, int channels,
@@ -109,15 +87,11 @@ void readEdged(std::int32_t y, std::int32_t width, std::int32_t height, int chan
               row + std::size_t(width + 1) * channels);
 }
 
-/// Numbers behind the last texel: lookups read four at a time.
-constexpr std::size_t kPadding = 3;
-
 template <class Number>
 void fill(std::vector<Number>& texels, const std::vector<Level>& levels, const Level& full,
           int channels, const ReadRow& readRow) {
   constexpr float kUnit = std::is_same_v<Number, float> ? 1 : 1 / Pyramid::kUnitCodes;
-  const Level& top = levels.back();
-  texels.resize(top.start + std::size_t(top.width + 2) * (top.height + 2) * channels + kPadding);
+  texels.resize(pyramidNumbers(levels, channels));
   halve(
       levels[0], full.width, full.height, channels,
       [&](std::int32_t y, float* row) {
@@ -137,6 +111,35 @@ void fill(std::vector<Number>& texels, const std::vector<Level>& levels, const L
 
 }  // namespace
 
+std::vector<Level> pyramidLevels(std::int32_t width, std::int32_t height, int channels) {
+  std::vector<Level> levels;
+  Level last;
+  last.width = width, last.height = height;
+  std::size_t start = 0;
+  while (last.width > 1 || last.height > 1) {
+    Level next;
+    next.width = (last.width + 1) / 2, next.height = (last.height + 1) / 2;
+    next.start = start;
+    next.scaleX = float(width) / float(next.width),
+    next.scaleY = float(height) / float(next.height);
+    const auto spread = [](std::int32_t fine, std::int32_t coarse, float scale) {
+      return scale * scale * addedSpread(spans(fine, coarse), fine, coarse);
+    };
+    next.spreadX = last.spreadX + spread(last.width, next.width, last.scaleX);
+    next.spreadY = last.spreadY + spread(last.height, next.height, last.scaleY);
+    start += std::size_t(next.width + 2) * (next.height + 2) * channels;
+    levels.push_back(last = next);
+  }
+  return levels;
+}
+
+std::size_t pyramidNumbers(const std::vector<Level>& levels, int channels) noexcept {
+  constexpr std::size_t kPadding = 3;  // behind the last texel: lookups read four at a time
+  if (levels.empty()) return 0;
+  const Level& top = levels.back();
+  return top.start + std::size_t(top.width + 2) * (top.height + 2) * channels + kPadding;
+}
+
 std::size_t Pyramid::bytes() const noexcept {
   return std::visit([](const auto& list) { return list.size() * sizeof(list[0]); }, texels);
 }
@@ -144,7 +147,7 @@ std::size_t Pyramid::bytes() const noexcept {
 Pyramid makePyramid(std::int32_t width, std::int32_t height, int channels, bool unit,
                     const ReadRow& readRow) {
   Pyramid p;
-  p.levels = chain(width, height, channels);
+  p.levels = pyramidLevels(width, height, channels);
   if (!unit) p.texels = std::vector<float>();
   if (p.levels.empty()) return p;
   Level full;

@@ -35,6 +35,10 @@ struct Pyramid {
   std::size_t bytes() const noexcept;
 };
 
+/// The levels of a picture of this size, and how many numbers a pyramid of them has.
+std::vector<Level> pyramidLevels(std::int32_t width, std::int32_t height, int channels);
+std::size_t pyramidNumbers(const std::vector<Level>& levels, int channels) noexcept;
+
 /// Writes one row of the full resolution, decoded, into [width][channels]; row 0 at the bottom.
 using ReadRow = std::function<void(std::int32_t y, float* row)>;
 

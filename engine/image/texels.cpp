@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "engine/image/decode.h"
+#include "engine/image/fingerprint.h"
 #include "engine/image/picture_file.h"
 
 namespace vestige {
@@ -198,22 +199,79 @@ struct Loading {
   }
 };
 
-/// In the smallest form that loses nothing the file has.
-bool load(Loading& loading, OIIO::TypeDesc format, Encoding::Kind kind) {
-  const bool mixes = kind == Encoding::Kind::config;
+/// The smallest form that loses nothing the file has.
+Storage storageOf(OIIO::TypeDesc format, bool mixesChannels) {
   switch (format.basetype) {
     case OIIO::TypeDesc::UINT8:
-      return mixes ? loading.floats(true) : loading.integers<std::uint8_t>(OIIO::TypeUInt8);
+      return mixesChannels ? Storage::halfs : Storage::bytes;
     case OIIO::TypeDesc::UINT16:
-      return mixes ? loading.floats(false) : loading.integers<std::uint16_t>(OIIO::TypeUInt16);
+      return mixesChannels ? Storage::floats : Storage::shorts;
     case OIIO::TypeDesc::HALF:
+      return Storage::halfs;
+    default:
+      return Storage::floats;
+  }
+}
+
+bool load(Loading& loading, OIIO::TypeDesc format) {
+  const bool mixes = loading.encoding.kind == Encoding::Kind::config;
+  switch (storageOf(format, mixes)) {
+    case Storage::bytes:
+      return loading.integers<std::uint8_t>(OIIO::TypeUInt8);
+    case Storage::shorts:
+      return loading.integers<std::uint16_t>(OIIO::TypeUInt16);
+    case Storage::halfs:
       return mixes || loading.premultiplied ? loading.floats(true) : loading.halfs();
     default:
       return loading.floats(false);
   }
 }
 
+/// Bytes of the full resolution and the pyramid.
+std::size_t bytesFor(const TexelPlan& p) {
+  const std::size_t code = p.storage == Storage::bytes    ? 1
+                           : p.storage == Storage::floats ? sizeof(float)
+                                                          : sizeof(std::uint16_t);
+  const std::size_t level = p.isInteger() ? sizeof(std::uint16_t) : sizeof(float);
+  return std::size_t(p.width) * p.height * p.channels * code +
+         pyramidNumbers(pyramidLevels(p.width, p.height, p.channels), p.channels) * level;
+}
+
+/// What the encoding does, in words, and where a transform of the colour config does it, in what it
+/// makes of a grid of colours: a config may change behind its name.
+std::string keyOf(const Encoding& e) {
+  std::string key = fmt::format("{} {}", int(e.kind), e.exponent);
+  if (e.kind != Encoding::Kind::config) return key;
+  constexpr int kSide = 17;
+  std::vector<float> grid;
+  for (const float most : {1.f, 64.f})
+    for (int i = 0; i < kSide * kSide * kSide; ++i)
+      for (const int k : {i % kSide, i / kSide % kSide, i / (kSide * kSide)})
+        grid.push_back(most * float(k) / (kSide - 1));
+  e.transform->apply(grid.data(), grid.size() / 3, 3);
+  return key + ' ' + fingerprint(grid.data(), grid.size() * sizeof(float));
+}
+
 }  // namespace
+
+std::optional<TexelPlan> planTexels(const std::string& file, const std::string& colourSpace,
+                                    std::string& error) {
+  const auto input = openPicture(file, error);
+  Encoding encoding;
+  if (!input || !chooseEncoding(input->spec(), colourSpace, encoding, error)) return std::nullopt;
+  const OIIO::ImageSpec& spec = input->spec();
+  TexelPlan p;
+  p.width = spec.width, p.height = spec.height;
+  p.channels = int(chooseChannels(spec).size());
+  p.storage = storageOf(spec.format, encoding.kind == Encoding::Kind::config);
+  p.bytes = bytesFor(p);
+  p.colourKey = keyOf(encoding);
+  if (p.isInteger()) {
+    const int bits = p.storage == Storage::bytes ? 8 : 16;
+    p.colour = integerTable(bits, encoding), p.alpha = integerTable(bits, {});
+  }
+  return p;
+}
 
 std::shared_ptr<const Texels> loadTexels(const std::string& file, const std::string& colourSpace,
                                          std::string& error) {
@@ -229,7 +287,7 @@ std::shared_ptr<const Texels> loadTexels(const std::string& file, const std::str
       texels->hasAlpha() && !spec.get_int_attribute("oiio:UnassociatedAlpha", 0);
   Loading loading{*input, file, encoding, channels, premultiplied, *texels, error};
   try {
-    if (!load(loading, spec.format, encoding.kind)) return nullptr;
+    if (!load(loading, spec.format)) return nullptr;
   } catch (const std::bad_alloc&) {
     error = fmt::format("the picture '{}' ({} x {} pixels) does not fit into memory", file,
                         spec.width, spec.height);

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -35,6 +36,26 @@ struct Texels {
 
   bool hasAlpha() const noexcept { return channels == 2 || channels == 4; }
 };
+
+/// How texels are held: uint8_t, uint16_t and the bits of halfs with tables, or floats.
+enum class Storage { bytes, shorts, halfs, floats };
+
+/// What loadTexels() will make of a file, worked out from its header alone.
+struct TexelPlan {
+  int width = 0, height = 0, channels = 0;
+  Storage storage = Storage::floats;
+  std::size_t bytes = 0;  ///< pyramid included
+  /// Decode tables of integers, as in TexelArray; null for others.
+  std::shared_ptr<const DecodeTable> colour, alpha;
+  std::string colourKey;  ///< two files of the same bytes and this are the same texture
+
+  bool isInteger() const noexcept {
+    return storage == Storage::bytes || storage == Storage::shorts;
+  }
+};
+/// Nothing with `error`.
+std::optional<TexelPlan> planTexels(const std::string& file, const std::string& colourSpace,
+                                    std::string& error);
 
 /// Reads a picture: `colourSpace` "" goes by the file's metadata, "raw" or "linear" takes numbers
 /// as they are, "srgb" decodes sRGB's curve, any other names a space of the colour config. Null

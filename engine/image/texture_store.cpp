@@ -1,48 +1,127 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <map>
 #include <tuple>
+#include <utility>
+#include <variant>
 
+#include "engine/image/cache_folder.h"
+#include "engine/image/fingerprint.h"
 #include "engine/image/image.h"
 #include "engine/image/memory_texture.h"
+#include "engine/image/paged_texture.h"
 #include "engine/image/texels.h"
 
 namespace vestige {
 
 namespace {
 
-template <class Code>
-std::shared_ptr<const Texture> withChannels(const std::shared_ptr<const Texels>& texels, Wrap u,
-                                            Wrap v) {
-  switch (texels->channels) {
+using Held = std::shared_ptr<const Texels>;
+using Paged = std::shared_ptr<const PagedFile>;
+using Source = std::variant<Held, Paged>;
+
+template <template <class, int> class SourceOf, class Number, class Data>
+std::shared_ptr<const Texture> withChannels(const Data& data, int channels, Wrap u, Wrap v) {
+  const auto make = [&]<int kChannels>() -> std::shared_ptr<const Texture> {
+    using Texels = SourceOf<Number, kChannels>;
+    return std::make_shared<FilteredTexture<Texels>>(Texels(data), u, v);
+  };
+  switch (channels) {
     case 1:
-      return std::make_shared<MemoryTexture<Code, 1>>(texels, u, v);
+      return make.template operator()<1>();
     case 2:
-      return std::make_shared<MemoryTexture<Code, 2>>(texels, u, v);
+      return make.template operator()<2>();
     case 3:
-      return std::make_shared<MemoryTexture<Code, 3>>(texels, u, v);
+      return make.template operator()<3>();
     default:
-      return std::make_shared<MemoryTexture<Code, 4>>(texels, u, v);
+      return make.template operator()<4>();
   }
 }
 
-std::shared_ptr<const Texture> makeTexture(const std::shared_ptr<const Texels>& texels, Wrap u,
-                                           Wrap v) {
+std::shared_ptr<const Texture> makeTexture(const Held& t, Wrap u, Wrap v) {
   return std::visit(
-      [&]<class Code>(const TexelArray<Code>&) { return withChannels<Code>(texels, u, v); },
-      texels->data);
+      [&]<class Code>(const TexelArray<Code>&) {
+        return withChannels<MemoryTexels, Code>(t, t->channels, u, v);
+      },
+      t->data);
+}
+
+std::shared_ptr<const Texture> makeTexture(const Paged& f, Wrap u, Wrap v) {
+  if (f->plan.isInteger())
+    return withChannels<PagedTexels, std::uint16_t>(f, f->plan.channels, u, v);
+  return withChannels<PagedTexels, float>(f, f->plan.channels, u, v);
 }
 
 }  // namespace
 
 struct TextureStore::Impl {
+  std::size_t budget = kDefaultBudget, held = 0;
+  std::shared_ptr<PageCache> pages;  ///< null until the first texture is paged
   /// By file and colour space: textures that differ in how they wrap share their texels.
-  std::map<std::pair<std::string, std::string>, std::shared_ptr<const Texels>> texels;
+  std::map<std::pair<std::string, std::string>, Source> sources;
   std::map<std::tuple<std::string, std::string, Wrap, Wrap>, std::shared_ptr<const Texture>>
       textures;
+  std::string warning;
+
+  /// False with `error`.
+  bool load(const std::string& file, const std::string& colourSpace, Source& source,
+            std::string& error) {
+    auto plan = planTexels(file, colourSpace, error);
+    if (!plan) return false;
+    if (held <= budget && plan->bytes <= budget - held)
+      source = loadTexels(file, colourSpace, error);
+    else
+      source = page(file, colourSpace, *std::move(plan), error);
+    if (!error.empty()) return false;
+    if (const Held* texels = std::get_if<Held>(&source)) held += (*texels)->bytes;
+    limitPages();
+    return true;
+  }
+
+  void limitPages() {
+    if (pages) pages->setLimit(budget > held ? budget - held : 0);
+  }
+
+ private:
+  /// Paged from a file that is there or can be made, else held in memory with a warning.
+  Source page(const std::string& file, const std::string& colourSpace, TexelPlan plan,
+              std::string& error) {
+    std::string why;
+    const std::string contents = fileFingerprint(file), folder = cacheFolder(why);
+    const std::string words =
+        fmt::format("{} {} {}", kTextureFileVersion, contents, plan.colourKey);
+    const std::string key = fingerprint(words.data(), words.size());
+    const std::string paged = folder + '/' + key + ".tx";
+    if (why.empty())
+      if (const auto facts = readTextureFile(paged, plan, key)) return open(paged, plan, *facts);
+    Held texels = loadTexels(file, colourSpace, error);
+    if (!texels) return texels;
+    if (why.empty() && writeTextureFile(paged, *texels, plan, key, why))
+      if (const auto facts = readTextureFile(paged, plan, key)) return open(paged, plan, *facts);
+    const std::size_t more = held + texels->bytes - budget;
+    warning = fmt::format(
+        "'{}' cannot be paged: {}; it is held in memory, and textures take {:.1f} MB more than "
+        "they "
+        "should",
+        file, why.empty() ? fmt::format("'{}' cannot be read back", paged) : why,
+        double(more) / 1e6);
+    return texels;
+  }
+
+  Source open(const std::string& file, const TexelPlan& plan, const TextureFacts& facts) {
+    if (!pages) pages = std::make_shared<PageCache>();
+    return std::make_shared<const PagedFile>(pages, file, plan, facts);
+  }
 };
 
 TextureStore::TextureStore() : impl_(std::make_unique<Impl>()) {}
 TextureStore::~TextureStore() = default;
+
+void TextureStore::setBudget(std::size_t bytes) {
+  impl_->budget = bytes;
+  impl_->limitPages();
+}
 
 std::shared_ptr<const Texture> TextureStore::texture(const std::string& file,
                                                      const TextureRequest& request,
@@ -51,26 +130,43 @@ std::shared_ptr<const Texture> TextureStore::texture(const std::string& file,
   const auto key = std::tuple(file, request.colourSpace, request.wrapU, request.wrapV);
   if (const auto known = impl_->textures.find(key); known != impl_->textures.end())
     return known->second;
-  const std::pair source(file, request.colourSpace);
-  auto texels = impl_->texels[source];
-  if (!texels) texels = loadTexels(file, request.colourSpace, error);
-  if (!texels) {
-    impl_->texels.erase(source);
-    return nullptr;
+  const std::pair name(file, request.colourSpace);
+  auto found = impl_->sources.find(name);
+  if (found == impl_->sources.end()) {
+    Source source;
+    if (!impl_->load(file, request.colourSpace, source, error)) return nullptr;
+    found = impl_->sources.emplace(name, std::move(source)).first;
   }
-  impl_->texels[source] = texels;
-  return impl_->textures[key] = makeTexture(texels, request.wrapU, request.wrapV);
+  const auto make = [&](const auto& s) { return makeTexture(s, request.wrapU, request.wrapV); };
+  return impl_->textures[key] = std::visit(make, found->second);
 }
 
-std::size_t TextureStore::bytes() const {
-  std::size_t sum = 0;
-  for (const auto& [source, texels] : impl_->texels) sum += texels->bytes;
-  return sum;
+std::string TextureStore::takeWarning() { return std::exchange(impl_->warning, {}); }
+
+TextureUse TextureStore::use() const {
+  TextureUse use;
+  use.held = impl_->held;
+  if (impl_->pages)
+    use.pagedLimit = impl_->pages->limit(), use.pagedUsed = impl_->pages->bytesUsed();
+  for (const auto& [name, source] : impl_->sources) {
+    const Paged* paged = std::get_if<Paged>(&source);
+    if (!paged) continue;
+    ++use.paged;
+    use.readErrors += (*paged)->failures();
+    if ((*paged)->failures() > 0) use.unreadable = (*paged)->file();
+  }
+  return use;
 }
+
+std::size_t TextureStore::bytes() const { return impl_->held; }
 
 std::size_t TextureStore::nonFinite() const {
   std::size_t sum = 0;
-  for (const auto& [source, texels] : impl_->texels) sum += texels->nonFinite;
+  for (const auto& [name, source] : impl_->sources)
+    if (const Held* texels = std::get_if<Held>(&source))
+      sum += (*texels)->nonFinite;
+    else
+      sum += std::get<Paged>(source)->facts.nonFinite;
   return sum;
 }
 

@@ -46,6 +46,7 @@ SceneBuilder::SceneBuilder(const SceneDesc& description, const Registry& registr
 
 std::unique_ptr<Scene> SceneBuilder::build() {
   impl_.hash = description_.hash;
+  impl_.textures.setBudget(options_.textureMemory);
   for (const Block& block : description_.blocks) addTop(block);
   addCamera();
   addIntegrator();

@@ -77,7 +77,7 @@ const Camera& Scene::camera() const noexcept { return *impl_->camera; }
 Integrator& Scene::integrator() noexcept { return *impl_->integrator; }
 const std::string& Scene::integratorName() const noexcept { return impl_->integratorName; }
 const FilmSettings& Scene::film() const noexcept { return impl_->film; }
-std::size_t Scene::textureBytes() const noexcept { return impl_->textures.bytes(); }
+TextureUse Scene::textureUse() const { return impl_->textures.use(); }
 std::size_t Scene::triangles() const noexcept { return impl_->world.triangles(); }
 std::uint64_t Scene::hash() const noexcept { return impl_->hash; }
 const ObjectInfo& Scene::object(int index) const noexcept {

@@ -8,6 +8,7 @@
 #include <vestige/camera.h>
 #include <vestige/integrator.h>
 
+#include "engine/image/image.h"
 #include "engine/scene/registry.h"
 
 namespace vestige {
@@ -36,7 +37,7 @@ class Scene {
   Integrator& integrator() noexcept;
   const std::string& integratorName() const noexcept;
   const FilmSettings& film() const noexcept;
-  std::size_t textureBytes() const noexcept;
+  TextureUse textureUse() const;
   std::size_t triangles() const noexcept;
   std::uint64_t hash() const noexcept;                 ///< of the description
   const ObjectInfo& object(int index) const noexcept;  ///< by Surface::object
@@ -51,6 +52,7 @@ class Scene {
 struct BuildOptions {
   std::string integrator = {};  ///< replaces the scene's own by name; "": the scene's, or `path`
   std::string footprint = {};   ///< bound that replaces the integrator's; "": the scene's
+  std::size_t textureMemory = TextureStore::kDefaultBudget;  ///< bytes, see TextureStore
 };
 
 /// Null if `diagnostics` got an error: missing file, refused parameter, singular transform, ...

@@ -38,7 +38,10 @@ std::string SceneHost::find(const std::string& file, Span span, std::string& err
 std::shared_ptr<const Texture> SceneHost::texture(const TextureRequest& request,
                                                   std::string& error) {
   const std::string file = find(request.file, request.span, error);
-  return file.empty() ? nullptr : textures_.texture(file, request, error);
+  if (file.empty()) return nullptr;
+  auto texture = textures_.texture(file, request, error);
+  if (const std::string why = textures_.takeWarning(); !why.empty()) warn(request.span, why);
+  return texture;
 }
 
 void SceneHost::warn(Span span, const std::string& message) {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names for contents, private to engine/image.
+#pragma once
+#include <cstddef>
+#include <string>
+
+namespace vestige {
+
+/// 32 hexadecimal digits, the same on every machine for the same bytes.
+std::string fingerprint(const void* bytes, std::size_t count);
+/// Of a file's contents; "" if it cannot be read.
+std::string fileFingerprint(const std::string& file);
+
+}  // namespace vestige
