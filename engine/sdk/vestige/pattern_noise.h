@@ -33,10 +33,15 @@ inline Real latticeFade(Real t) noexcept { return t * t * t * (t * (t * 6 - 15) 
 
 }  // namespace detail
 
-/// Gradient noise: 0 at lattice points, mean 0, within [-1.04, 1.04].
-inline Real gradientNoise(Vec3 p, std::uint32_t seed) noexcept {
+/// Gradient noise: mean 0, within [-1.04, 1.04]. Its lattice is turned against the axes: on a plane
+/// of lattice points, which floors and walls otherwise are, it is flatter than in space, and no
+/// mean of |noise| would be true there.
+inline Real gradientNoise(Vec3 at, std::uint32_t seed) noexcept {
   // Beyond this a float has no fraction, and an int soon no room.
-  if (!(maxAbsComponent(p) < Real(1e9))) return 0;
+  if (!(maxAbsComponent(at) < Real(1e9))) return 0;
+  const Vec3 p{dot(Vec3{Real(0.670649316), Real(-0.561275730), Real(0.484973246)}, at),
+               dot(Vec3{Real(0.692047325), Real(0.708791032), Real(-0.136695915)}, at),
+               dot(Vec3{Real(-0.267020587), Real(0.427299460), Real(0.863779589)}, at)};
   const Vec3 low{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
   const Vec3 d = p - low;
   const auto x = std::int32_t(low.x), y = std::int32_t(low.y), z = std::int32_t(low.z);
@@ -91,10 +96,11 @@ inline Pieces grainPieces(const Patch& patch, Real step, int most) noexcept {
 template <class Shape>
 Real octaveOver(const Patch& patch, std::uint32_t seed, Real mean, const Shape& shape) noexcept {
   if (patch.isPoint()) return shape(gradientNoise(patch.centre, seed)) - mean;
-  constexpr Real kFrom = 4, kTo = 7;  // lattice units
-  const Real size = std::sqrt(lengthSquared(patch.a) + lengthSquared(patch.b));
-  if (patch.isHuge() || !(size < kTo)) return 0;
-  const Real kept = std::min((kTo - size) / (kTo - kFrom), Real(1));
+  if (patch.isHuge()) return 0;
+  constexpr Real kFrom = 10, kTo = 30;  // grains under the patch, about
+  const Real grains = (1 + length(patch.a)) * (1 + length(patch.b));
+  if (!(grains < kTo)) return 0;
+  const Real kept = std::min((kTo - grains) / (kTo - kFrom), Real(1));
   const auto [na, nb] = grainPieces(patch, Real(0.75), 6);
   const double rest = overPieces(patch, na, nb, [&](const Patch& piece) {
     return double(shape(gradientNoise(piece.centre, seed)) - mean);
