@@ -49,6 +49,7 @@ Rgba PlacedPigment::eval(const SurfacePoint& at, const Footprint& footprint) con
     lookup.footprint.dP[i] = fromWorld.vector(footprint.dP[i]);
     lookup.footprint.dUv[i] = linearUv(fromUv, footprint.dUv[i]);
   }
+  lookup.footprint.alongMajor = footprint.alongMajor;
   return pigment->eval(lookup);
 }
 

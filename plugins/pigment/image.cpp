@@ -2,6 +2,7 @@
 // A picture from a file.
 #include <vestige/pigment.h>
 #include <vestige/plugin.h>
+#include <vestige/texture_box.h>
 
 namespace vestige {
 
@@ -77,7 +78,8 @@ class ImagePigment final : public Pigment {
     const Spot spot = mapping_ == Mapping::uv       ? byUv(at)
                       : mapping_ == Mapping::planar ? planar(at)
                                                     : spherical(at);
-    return chosen(texture_->lookup(spot.uv, spot.dUv));
+    return chosen(at.footprint.alongMajor ? lookupAlongMajor(*texture_, spot.uv, spot.dUv)
+                                          : texture_->lookup(spot.uv, spot.dUv));
   }
 
   Rgba mean() const noexcept override { return chosen(texture_->mean()); }

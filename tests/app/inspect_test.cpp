@@ -50,7 +50,7 @@ TEST_CASE("inspect: later samples stand for less, bounds can be chosen", "[app]"
     REQUIRE(r.exit == 0);
     return nlohmann::json::parse(r.out)["vertices"][0]["footprint"]["size"].get<double>();
   };
-  CHECK(size({"--sample", "15"}) == Approx(4.0 / 64 * std::pow(16, -0.75)).epsilon(1e-3));
+  CHECK(size({"--sample", "15"}) == Approx(4.0 / 64 / 4).epsilon(1e-3));
   CHECK(size({"--footprint", "local", "--spp", "16"}) == Approx(4.0 / 64 / 4).epsilon(1e-3));
   CHECK(size({"--footprint", "global", "--spp", "16"}) == Approx(4.0 / 64 / 4).epsilon(1e-3));
   CHECK(size({"--footprint", "pixel", "--spp", "1"}) == Approx(4.0 / 64).epsilon(1e-3));
@@ -153,7 +153,7 @@ TEST_CASE("a limit of the score lets matt surfaces be", "[app]") {
     REQUIRE(d.size() == 4);
     return std::pair(d[2]["delta"].get<double>(), d[3]["delta"].get<double>());
   };
-  const double bound = std::pow(16, -0.75);
+  const double bound = std::pow(16, -2. / 3);
   CHECK(deltas("score").first == Approx(bound).epsilon(1e-3));
   CHECK(deltas("score").second == Approx(bound).epsilon(1e-3));
   CHECK(std::min(deltas("contribution").first, deltas("contribution").second) < bound / 2);

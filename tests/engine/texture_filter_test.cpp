@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lookups with a footprint, against the average of point lookups that are worked out the long way.
+#include <vestige/texture_box.h>
+
 #include <cmath>
 #include <limits>
 #include <random>
@@ -131,8 +133,11 @@ double bruteForce(const Picture& p, Wrap wrap, double u, double v, const Vec2 d[
 }
 
 /// Mean of |lookup - brute force| over random places and turns, as a share of the contrast.
+using LookUp = Rgba (*)(const Texture&, Vec2, const Vec2[2]);
+Rgba itsOwn(const Texture& t, Vec2 uv, const Vec2 d[2]) { return t.lookup(uv, d); }
+
 double meanError(const Picture& p, const Texture& t, Wrap wrap, double length, double aspect,
-                 bool gaussian) {
+                 bool gaussian, LookUp lookUp = itsOwn) {
   std::mt19937 random(unsigned(length * 100 + aspect));
   std::uniform_real_distribution<double> unit(0, 1);
   constexpr int kPlaces = 16;
@@ -140,7 +145,7 @@ double meanError(const Picture& p, const Texture& t, Wrap wrap, double length, d
   for (int i = 0; i < kPlaces; ++i) {
     const double u = 3 * unit(random) - 1, v = 3 * unit(random) - 1;
     const Sides s(p, length, aspect, 6.2832 * unit(random));
-    const double found = double(t.lookup({Real(u), Real(v)}, s.d).colour.r);
+    const double found = double(lookUp(t, {Real(u), Real(v)}, s.d).colour.r);
     sum += std::abs(found - bruteForce(p, wrap, u, v, s.d, gaussian, random));
   }
   return sum / kPlaces / p.contrast();
@@ -173,6 +178,26 @@ TEST_CASE("a footprint averages the point lookups under it", "[texture]") {
   SECTION("odd sizes") { check(photograph(37, 111), 0.06, 0.03); }
   SECTION("fine checker") { check(checker(64, 64, 2), 0.1, 0.17); }
   SECTION("noise") { check(noise(96, 32), 0.1, 0.15); }
+}
+
+TEST_CASE("PD01's lookups along the longer axis average the same region", "[texture]") {
+  const TempFolder folder;
+  TextureStore store;
+  for (const Picture& p : {photograph(150, 100), noise(96, 32)})
+    for (const Wrap wrap : kWraps) {
+      const auto t = p.load(store, folder, wrap);
+      for (const double aspect : {1.0, 4.0, 16.0})
+        for (const double length : {0.9, 4.0, 31.0, 110.0}) {
+          INFO(p.width << " wrap " << int(wrap) << " aspect " << aspect << " length " << length);
+          CHECK(meanError(p, *t, wrap, length, aspect, false, lookupAlongMajor) < 0.2);
+        }
+      // A needle, nothing, and what is not a number.
+      const Vec2 needle[2] = {{Real(0.9), 0}, {}}, lost[2] = {{kInfinity, 0}, {0, NAN}};
+      CHECK(std::isfinite(lookupAlongMajor(*t, {Real(0.3), Real(0.4)}, needle).colour.r));
+      CHECK(std::isfinite(lookupAlongMajor(*t, {Real(0.3), Real(0.4)}, lost).colour.r));
+      CHECK(lookupAlongMajor(*t, {Real(0.3), Real(0.4)}, kPoint).colour.r ==
+            t->lookup({Real(0.3), Real(0.4)}, kPoint).colour.r);
+    }
 }
 
 TEST_CASE("up to one texel a footprint is a point, bit for bit", "[texture]") {

@@ -156,7 +156,12 @@ TEST_CASE("deltas of each bound", "[footprint]") {
   for (int i = 0; i < 3; ++i) c.chance(Real(0.9));
   CHECK(commonDelta(p, c) == Approx(0.207).epsilon(0.01));  // MATH 3.2: survival, not absorption
   p.bound = Bound::safe;
-  CHECK(commonDelta(p, c) == Approx(std::pow(16 * 0.729, -0.75)));
+  CHECK(commonDelta(p, c) == Approx(std::pow(16 * 0.729, -2. / 3)));
+  {
+    PathCount film;
+    film.begin(15, 400000, 2);
+    CHECK(commonDelta(p, film) == Approx(0.25));  // sixteen cover the pixel
+  }
   p.bound = Bound::local;
   CHECK(commonDelta(p, c) == Approx(1 / std::sqrt(400000.0)));
   p.bound = Bound::none;

@@ -16,7 +16,7 @@ extern "C" struct VestigeError {
 /// SDK 1: first release.   (each later version: one line saying what changed)
 /// SDK 2: SurfacePoint has second derivatives; Host::note(); `lacks`, which derivatives are
 /// missing; Light::usesSpread() and LightHit::spread; SceneView's texels() and usesFootprint();
-/// Parameter::isNonlinear.
+/// Parameter::isNonlinear; Footprint::alongMajor.
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended

@@ -75,7 +75,7 @@ class PathFootprint {
     const Frame f = Frame::around(normal_);
     const Region r = isCone(settings_.deltas.bound) ? cone(f) : region(f);
     const auto world = [&](Vec2 p) { return p.x * f.s + p.y * f.t; };
-    Footprint result{{world(r.a), world(r.b)}, {}};
+    Footprint result{{world(r.a), world(r.b)}, {}, settings_.alongMajor};
     for (const int i : {0, 1})
       result.dUv[i] = {dot(motion_.du, result.dP[i]), dot(motion_.dv, result.dP[i])};
     return result;

@@ -18,7 +18,7 @@ enum class Bound {
   global,     ///< N_eff^(-1/M): all numbers share what the whole path has [PD01 Sec. 3.1]
   roughness,  ///< a cone, opened by the lobe's roughness: for comparison (cone.h)
   density,    ///< a cone, opened by the density of what was drawn: for comparison
-  safe,       ///< (own index in the pixel)^(-3/4): shrinks fast enough never to lose [MATH 3.2]
+  safe,       ///< by the own index in the pixel, safeDelta(): shrinks fast enough never to lose
 };
 
 struct DeltaPolicy {
@@ -27,13 +27,14 @@ struct DeltaPolicy {
   /// limit.
   Real limit = kInfinity;
   Real scale = 1;     ///< multiplies the bound
-  Real exponent = 0;  ///< replaces that of global (1/M) or safe (3/4); 0: as it is
+  Real exponent = 0;  ///< replaces that of global (1/M) or safe (1/2, 2/3); 0: as it is
 };
 
-/// n^(-3/4), the exponent of `safe`, without a pow.
-inline Real safeDelta(Real n) noexcept {
-  const Real root = std::sqrt(n);
-  return 1 / (root * std::sqrt(root));
+/// Of the n-th of samples that share two numbers, the film's: n^(-1/2), so that together they cover
+/// the pixel; of more numbers n^(-2/3) (docs/adr/0006).
+inline Real safeDelta(Real n, int variables) noexcept {
+  if (variables <= 2) return 1 / std::sqrt(n);
+  return 1 / sqr(std::cbrt(n));
 }
 
 /// How many paths there are like this one, and how many numbers made it.
@@ -85,7 +86,7 @@ inline Real commonDelta(const DeltaPolicy& policy, const PathCount& count) noexc
     }
     case Bound::safe:
       delta = policy.exponent > 0 ? std::pow(count.effectiveIndex(), -policy.exponent)
-                                  : safeDelta(count.effectiveIndex());
+                                  : safeDelta(count.effectiveIndex(), count.variables());
       break;
   }
   return std::clamp(policy.scale * delta, Real(0), Real(1));

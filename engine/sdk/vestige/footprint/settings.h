@@ -22,6 +22,7 @@ struct FootprintSettings {
   DeltaPolicy deltas;
   Limited limited = Limited::contribution;
   RegionShape shape = RegionShape::covariance;
+  bool alongMajor = false;  ///< pictures are looked up as PD01 does
   bool isOn() const noexcept { return deltas.bound != Bound::none; }
 };
 
@@ -38,7 +39,7 @@ inline std::vector<Schema> footprintSchemas() {
        "N_eff^(-1/M): all numbers of a path share its samples (Suykens and Willems, 3.1)"},
       {"safe", "shrinks with the sample's own index: never worse than none, the default"},
       {"gradient", "the paper's bound for this integrator, with limit 0.7"},
-      {"paper", "the paper's bound and its representative vectors"},
+      {"paper", "the paper's bound, its representative vectors and its filter for pictures"},
       {"cone_roughness", "for comparison: a cone, max(spread, roughness) at every scattering"},
       {"cone_density", "for comparison: a cone, max(spread, 1/(8 sqrt(pdf))) at every scattering"}};
   std::vector<Schema> all;
@@ -61,7 +62,7 @@ inline std::vector<Schema> footprintSchemas() {
                   real("exponent", 0)
                       .unset()
                       .range(0, 8)
-                      .doc("of the sample count in global (1/M) and safe (3/4)")};
+                      .doc("of the sample count in global (1/M) and safe (1/2, then 2/3)")};
     all.push_back(std::move(s));
   }
   return all;
@@ -83,7 +84,7 @@ inline FootprintSettings footprintSettings(const Block* block, Bound native,
                    : word == "cone_density"   ? Bound::density
                                               : native;
   if (word == "gradient") s.deltas.limit = kDefaultLimit;
-  if (word == "paper") s.shape = RegionShape::representative;
+  if (word == "paper") s.shape = RegionShape::representative, s.alongMajor = true;
   const auto number = [&](const char* name, Real& into) {
     if (const Value* v = block->find(name)) into = Real(v->v[0]);
   };
