@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much noise a footprint takes away behind a glossy surface, held against an independent
 // program's experiment: four stratified rays leave a Phong lobe for a textured wall
-// (docs/footprints.md has the table). Theirs is numpy, its own sampler, derivatives and filter; ours
-// the plugin, the footprint module and, for squares, the pigment's filter.
+// (docs/footprints.md has the table). Theirs is numpy, its own sampler, derivatives and filter;
+// ours the plugin, the footprint module and, for squares, the pigment's filter.
 #include <vestige/footprint.h>
 #include <vestige/pigment.h>
 
