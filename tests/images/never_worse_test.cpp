@@ -145,7 +145,7 @@ TEST_CASE("the default converges", "[slow][footprint]") {
 }
 
 // Which exponent: test_images "[.exponents]" prints what docs/adr/0006 shows.
-TEST_CASE("exponents of safe", "[.exponents]") {
+TEST_CASE("exponents of safe", "[.exponents][slow]") {
   const std::vector<int> samples = {1, 4, 16, 64, 256, 1024};
   const std::string path = "path { depth 4";
   for (const auto& [name, pigment] : kTextures) DYNAMIC_SECTION(name) {
