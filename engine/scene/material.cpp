@@ -66,6 +66,7 @@ Vec2 Material::texels() const noexcept {
 }
 
 Real Material::opacityAt(const SurfacePoint& at) const noexcept {
+  if (!isTranslucent) return 1;
   for (const TexturedInput& t : textured)
     if (t.input == opacity)
       return std::clamp(luminance(t.pigment.eval(at, {}).colour), Real(0), Real(1));

@@ -55,7 +55,7 @@ void Scene::Impl::commit() {
 
 Real Scene::Impl::transmittance(const Ray& ray) const noexcept {
   const auto opacity = [](const void* self, const Surface& s) {
-    return static_cast<const Impl*>(self)->material(s).opacityAt(s);
+    return static_cast<const Impl*>(self)->opacity(s);
   };
   return world.transmittance(ray, opacity, this);
 }

@@ -51,6 +51,7 @@ struct Scene::Impl final : SceneView {
                     InputBuffer& buffer) const noexcept override {
     return interact(material(surface), surface, toPrev, footprint, buffer);
   }
+  Real opacity(const Surface& s) const noexcept override { return material(s).opacityAt(s); }
   Rgb emitted(const Surface& surface, Vec3 from) const noexcept override;
   Real lightPdf(const Surface& surface, Vec3 from) const noexcept override;
   std::span<const Light* const> lights() const noexcept override { return lightList; }

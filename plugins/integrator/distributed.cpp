@@ -8,6 +8,7 @@
 #include <vestige/path_report.h>
 #include <vestige/plugin.h>
 
+#include <optional>
 #include <utility>
 
 namespace vestige {
@@ -104,8 +105,10 @@ class Distributed final : public Integrator {
       if (f) f->arrive(*hit, size);
       sum += metLight(c.scene, *hit, node.drawn);
       InputBuffer buffer;
-      const Interaction x =
-          c.scene.shade(*hit, -node.ray.direction, regionAt(c.scene, *hit, f), buffer);
+      const Vec3 toPrev = -node.ray.direction;
+      const Interaction x = node.edge > 1 && node.edge == depth_
+                                ? lastSurface(c.scene, *hit, toPrev)
+                                : c.scene.shade(*hit, toPrev, regionAt(c.scene, *hit, f), buffer);
       if (node.edge == 1 && layer == 0 && c.aovs) writeAovs(*c.aovs, *hit, x);
       if (stays(c, node, x, layer)) return sum + reflected(c, node, *hit, x, size);
       node.report.end(*hit, x.toPrev, grey(1), "pass", f);
@@ -207,11 +210,11 @@ class Distributed final : public Integrator {
                node.edge + 1,
                nullptr,
                PathReport()};
-    PathFootprint<> footprint;
-    if (node.footprint) {
-      footprint = *node.footprint;
-      footprint.scatter(s, x, next, numbers, next.local.specular ? Strata{} : split_.strata());
-      below.footprint = &footprint;
+    std::optional<PathFootprint<>> footprint;
+    if (node.footprint && (below.edge < depth_ || lastEdgeCarries(c, next))) {
+      footprint.emplace(*node.footprint);
+      footprint->scatter(s, x, next, numbers, next.local.specular ? Strata{} : split_.strata());
+      below.footprint = &*footprint;
     }
     if (report) {
       report->left(below.footprint);

@@ -88,9 +88,8 @@ class PathIntegrator final : public Integrator {
 
   /// Follows the ray to the surface where it scatters; adds what shines on the way. nullopt: it
   /// left the scene.
-  static std::optional<Surface> nextSurface(PathContext& c, Path& path, int edge,
-                                            InputBuffer& buffer, Interaction& x,
-                                            Rgb& radiance) noexcept {
+  std::optional<Surface> nextSurface(PathContext& c, Path& path, int edge, InputBuffer& buffer,
+                                     Interaction& x, Rgb& radiance) const noexcept {
     for (int layer = 0; layer < kMaxLayers; ++layer) {
       ++c.counters.rays;
       const std::optional<Surface> hit = c.scene.intersect(path.ray);
@@ -102,7 +101,10 @@ class PathIntegrator final : public Integrator {
       }
       if (path.footprint) path.footprint->arrive(*hit, path.sceneSize);
       radiance += path.throughput * metLight(c.scene, *hit, path.drawn);
-      x = c.scene.shade(*hit, -path.ray.direction, regionAt(c.scene, *hit, path.footprint), buffer);
+      const Vec3 toPrev = -path.ray.direction;
+      x = edge > 1 && edge == depth_
+              ? lastSurface(c.scene, *hit, toPrev)
+              : c.scene.shade(*hit, toPrev, regionAt(c.scene, *hit, path.footprint), buffer);
       const std::uint32_t dim = dimension::vertex(edge - 1) + dimension::kOpacity;
       // Layers beyond the first have numbers of their own, far from those of any vertex.
       if (x.opacity >= 1) return hit;
@@ -116,8 +118,8 @@ class PathIntegrator final : public Integrator {
   }
 
   /// Draws the next ray; false where the path ends.
-  static bool scatter(PathContext& c, Path& path, const Surface& s, const Interaction& x,
-                      int edge) noexcept {
+  bool scatter(PathContext& c, Path& path, const Surface& s, const Interaction& x,
+               int edge) const noexcept {
     const std::uint32_t dim = dimension::vertex(edge - 1);
     const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe),
                                  c.sampler.pair(dim + dimension::kDirection)};
@@ -135,6 +137,7 @@ class PathIntegrator final : public Integrator {
     const bool goesOn =
         !isBlack(path.throughput) &&
         (edge < kRouletteFrom || survives(path, c.sampler.number(dim + dimension::kRoulette)));
+    if (edge + 1 == depth_ && !lastEdgeCarries(c, *next)) path.footprint = nullptr;
     if (path.footprint && (goesOn || path.report.isWaiting()))
       path.footprint->scatter(s, x, *next, numbers);
     path.report.left(path.footprint);

@@ -17,6 +17,7 @@ extern "C" struct VestigeError {
 /// SDK 2: SurfacePoint has second derivatives; Host::note(); `lacks`, which derivatives are
 /// missing; Light::usesSpread() and LightHit::spread; SceneView's texels() and usesFootprint();
 /// Parameter::isNonlinear; Footprint::alongMajor.
+/// SDK 3: SceneView::opacity().
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended
@@ -36,7 +37,7 @@ extern "C" struct VestigePlugin {
 namespace vestige {
 
 inline constexpr std::uint64_t kPluginMagic = 0x3145474954534556;  ///< "VESTIGE1", little endian
-inline constexpr std::uint32_t kSdkMajor = 2, kSdkMinor = 0;
+inline constexpr std::uint32_t kSdkMajor = 3, kSdkMinor = 0;
 
 /// Bits of VestigePlugin::lacks: methods that the plugin's class leaves as its interface has them.
 inline constexpr std::uint32_t kLacksSampleDerivatives = 1, kLacksLogGradient = 2;

@@ -71,7 +71,7 @@ class PathFootprint {
 
   /// The region around the vertex, in world space and in uv: two vectors, full length (pigment.h).
   Footprint footprint() const noexcept {
-    if (!settings_.isOn()) return {};
+    if (!settings_.isOn() || settings_.deltas.scale == 0) return {};
     const Frame f = Frame::around(normal_);
     const Region r = isCone(settings_.deltas.bound) ? cone(f) : region(f);
     const auto world = [&](Vec2 p) { return p.x * f.s + p.y * f.t; };

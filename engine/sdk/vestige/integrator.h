@@ -76,6 +76,8 @@ class SceneView {
   /// Evaluates the material's inputs over the footprint, bends and maps the normal.
   virtual Interaction shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
                             InputBuffer& buffer) const noexcept = 0;
+  /// Of all this only the opacity, [0, 1], looked up at a point.
+  virtual Real opacity(const Surface& surface) const noexcept = 0;
 
   /// What the surface emits towards `from`; black if it is no light.
   virtual Rgb emitted(const Surface& surface, Vec3 from) const noexcept = 0;
@@ -258,6 +260,14 @@ class Integrator {
 };
 
 /// Fills what every integrator has to say about the first surface.
+/// The surface at which a path's last edge ends: nothing scatters there, so nothing but whether the
+/// ray passes through is looked up.
+inline Interaction lastSurface(const SceneView& scene, const Surface& s, Vec3 toPrev) noexcept {
+  Interaction x;
+  x.toPrev = toPrev, x.opacity = scene.opacity(s);
+  return x;
+}
+
 inline void writeAovs(Aovs& aovs, const Surface& s, const Interaction& x) noexcept {
   aovs.normal = x.frame.n, aovs.depth = s.distance, aovs.position = s.position, aovs.uv = s.uv;
 }

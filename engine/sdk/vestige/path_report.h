@@ -19,6 +19,12 @@ Footprint regionAt(const SceneView& scene, const Surface& s,
   return f && scene.usesFootprint(s) ? f->footprint() : Footprint{};
 }
 
+/// Whether the last edge of a path, once drawn, still needs its footprint: nothing is textured
+/// where it ends, so only for what shines behind a specular event, or for somebody who looks on.
+inline bool lastEdgeCarries(const PathContext& c, const Scatter& drawn) noexcept {
+  return drawn.local.specular || c.record || c.wantsFootprint;
+}
+
 /// What lights at infinity add to a ray that left the scene, filtered over the directions that the
 /// path stands for. Rays that had a rival are not: next-event estimation looked at a point [MATH
 /// T7].
