@@ -6,9 +6,6 @@
 namespace vestige {
 namespace {
 
-/// Of all choices, this share is spread evenly over the lights.
-constexpr double kEvenShare = 0.1;
-
 LightHit seenFrom(const Surface& s, Vec3 from) noexcept {
   const Vec3 d = s.position - from;
   const Real distance = length(d);
@@ -17,30 +14,6 @@ LightHit seenFrom(const Surface& s, Vec3 from) noexcept {
 
 }  // namespace
 
-void LightTable::build(std::span<const Light* const> lights) {
-  std::vector<double> power;
-  double total = 0;
-  for (const Light* l : lights) {
-    const double p = luminance(l->power());
-    power.push_back(std::isfinite(p) && p > 0 ? p : 0);
-    total += power.back();
-  }
-  const double n = double(power.size());
-  double sum = 0;
-  for (const double p : power) {
-    const double chance = total > 0 ? (1 - kEvenShare) * p / total + kEvenShare / n : 1 / n;
-    chances_.push_back(Real(chance));
-    upTo_.push_back(Real(sum += chance));
-  }
-}
-
-std::optional<LightChoice> LightTable::choose(Real u) const noexcept {
-  if (chances_.empty()) return std::nullopt;
-  const auto found = std::upper_bound(upTo_.begin(), upTo_.end() - 1, u);
-  const int light = int(found - upTo_.begin());
-  return LightChoice{light, chances_[std::size_t(light)]};
-}
-
 void Scene::Impl::commit() {
   world.commit();
   for (std::size_t i = 0; i < ownedLights.size(); ++i) {
@@ -48,7 +21,10 @@ void Scene::Impl::commit() {
     lightList.push_back(ownedLights[i].get());
     if (ownedLights[i]->isInfinite()) infinite.push_back(int(i));
   }
-  lightTable.build(lightList);
+  std::vector<double> powers;
+  for (const Light* l : lightList) powers.push_back(double(luminance(l->power())));
+  lightsByPower.build(powers);
+  lightTree.build(lightList);
   for (const Material& m : materials) hasTextures |= m.usesFootprint;
   for (const int i : infinite) hasTextures |= lightList[std::size_t(i)]->usesSpread();
 }
@@ -65,9 +41,9 @@ Rgb Scene::Impl::emitted(const Surface& s, Vec3 from) const noexcept {
 }
 
 Real Scene::Impl::lightPdf(const Surface& s, Vec3 from) const noexcept {
-  return s.light < 0
-             ? 0
-             : lightTable.chance(s.light) * lightList[std::size_t(s.light)]->pdf(seenFrom(s, from));
+  return s.light < 0 ? 0
+                     : lightTree.chance(s.light, from) *
+                           lightList[std::size_t(s.light)]->pdf(seenFrom(s, from));
 }
 
 Scene::Scene() : impl_(std::make_unique<Impl>()) {}

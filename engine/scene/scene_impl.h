@@ -5,22 +5,12 @@
 #include <vector>
 
 #include "engine/image/image.h"
+#include "engine/scene/light_tree.h"
 #include "engine/scene/material.h"
 #include "engine/scene/scene.h"
 #include "engine/trace/world.h"
 
 namespace vestige {
-
-/// Chooses lights by power, each with a least chance, so that none is starved by a bright sun.
-class LightTable {
- public:
-  void build(std::span<const Light* const> lights);
-  std::optional<LightChoice> choose(Real u) const noexcept;
-  Real chance(int light) const noexcept { return chances_[std::size_t(light)]; }
-
- private:
-  std::vector<Real> chances_, upTo_;
-};
 
 struct Scene::Impl final : SceneView {
   TextureStore textures;
@@ -32,7 +22,8 @@ struct Scene::Impl final : SceneView {
   std::vector<std::shared_ptr<Light>> ownedLights;
   std::vector<const Light*> lightList;
   std::vector<int> infinite;
-  LightTable lightTable;
+  LightTable lightsByPower;
+  LightTree lightTree;
   std::shared_ptr<const Camera> camera;
   std::shared_ptr<Integrator> integrator;
   std::string integratorName;
@@ -56,9 +47,14 @@ struct Scene::Impl final : SceneView {
   Real lightPdf(const Surface& surface, Vec3 from) const noexcept override;
   std::span<const Light* const> lights() const noexcept override { return lightList; }
   std::optional<LightChoice> chooseLight(Real u) const noexcept override {
-    return lightTable.choose(u);
+    return lightList.empty() ? std::nullopt : std::optional(lightsByPower.choose(u));
   }
-  Real lightChance(int light) const noexcept override { return lightTable.chance(light); }
+  std::optional<LightChoice> chooseLight(Vec3 at, Real u) const noexcept override {
+    return lightTree.choose(at, u);
+  }
+  Real lightChance(int light, Vec3 at) const noexcept override {
+    return lightTree.chance(light, at);
+  }
   std::span<const int> infiniteLights() const noexcept override { return infinite; }
   bool usesFootprints() const noexcept override { return hasTextures; }
   bool usesFootprint(const Surface& s) const noexcept override { return material(s).usesFootprint; }

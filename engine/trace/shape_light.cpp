@@ -23,6 +23,9 @@ class AnalyticLight final : public SurfaceLight {
         const AreaSample a =
             shape_->samplePoint({(i % n + Real(0.5)) / n, (i / n + Real(0.5)) / n});
         sum += place_.stretch(a.point.geometricNormal) / a.pdf;
+        const Vec3 normal = place_.world(a.point).geometricNormal;
+        if (i == 0) axis_ = normal;
+        isFlat_ = isFlat_ && dot(normal, axis_) > Real(0.9999);
       }
     area_ = Real(sum / (n * n));
   }
@@ -84,10 +87,15 @@ class AnalyticLight final : public SurfaceLight {
     return 1 / (shape_->area() * place_.stretch(own));
   }
   Real area() const noexcept override { return area_; }
+  LightExtent oneSided() const noexcept override {
+    return {place_.bounds(shape_->bounds()), axis_, isFlat_ ? Real(0.03) : kPi};
+  }
 
   std::shared_ptr<const Shape> shape_;
   Place place_;
   Real area_;
+  Vec3 axis_{0, 0, 1};  ///< the normal, where it is the same everywhere
+  bool isFlat_ = true;
 };
 
 /// Triangles: one is chosen by area with u.x, which is then stretched over its own interval again,
@@ -121,6 +129,20 @@ class MeshLight final : public SurfaceLight {
   }
   Real areaPdf(Vec3) const noexcept override { return sums_.empty() ? 0 : Real(1 / sums_.back()); }
   Real area() const noexcept override { return sums_.empty() ? 0 : Real(sums_.back()); }
+  LightExtent oneSided() const noexcept override {
+    Vec3 sum;
+    for (std::uint32_t k = 0; k < triangles_.size(); ++k) {
+      const Triangles::Edges e = triangles_.edges(k);
+      sum += e.area * e.normal;
+    }
+    if (!(lengthSquared(sum) > 0)) return {triangles_.bounds()};
+    LightExtent result{triangles_.bounds(), normalize(sum), 0};
+    Real least = 1;
+    for (std::uint32_t k = 0; k < triangles_.size(); ++k)
+      least = std::min(least, dot(triangles_.edges(k).normal, result.axis));
+    result.spread = std::acos(std::max(least, Real(-1)));
+    return result;
+  }
 
   std::shared_ptr<const Shape> shape_;  ///< keeps the mesh alive
   Triangles triangles_;

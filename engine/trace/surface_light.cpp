@@ -97,6 +97,12 @@ RayJacobian SurfaceLight::emissionDerivatives(EmissionNumbers u) const noexcept 
   return j;
 }
 
+LightExtent SurfaceLight::extent() const noexcept {
+  LightExtent e = oneSided();
+  if (twoSided_) e.spread = kPi;
+  return e;
+}
+
 Rgb SurfaceLight::power() const noexcept { return kPi * area() * (twoSided_ ? 2 : 1) * mean_; }
 
 }  // namespace vestige

@@ -25,6 +25,7 @@ class SurfaceLight : public Light {
   std::optional<Particle> emit(EmissionNumbers u) const noexcept override;
   RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept override;
   Rgb power() const noexcept override;
+  LightExtent extent() const noexcept final;
 
  protected:
   /// A point by area, in world space; `pdf` per unit of world area. Nullopt: the light has no area.
@@ -33,6 +34,8 @@ class SurfaceLight : public Light {
   virtual Real areaPdf(Vec3 normal) const noexcept = 0;
   /// World area.
   virtual Real area() const noexcept = 0;
+  /// As if it shone to one side only.
+  virtual LightExtent oneSided() const noexcept = 0;
 
   bool shinesTo(Vec3 normal, Vec3 toLight) const noexcept {
     return twoSided_ || dot(normal, toLight) < 0;

@@ -110,6 +110,12 @@ class Area final : public Light {
             .dDirection = {Vec3{}, Vec3{}, s.stretch * f.toWorld(du.c[0]), f.toWorld(du.c[1])}};
   }
 
+  LightExtent extent() const noexcept override {
+    LightExtent e{{}, normal_, twoSided_ ? kPi : 0};
+    for (const Vec3& p : mesh_.positions) e.box.add(p);
+    return e;
+  }
+
   Rgb power() const noexcept override { return (twoSided_ ? 2 : 1) * kPi * area_ * radiance_; }
 
  private:

@@ -62,6 +62,8 @@ class Point final : public Light {
     return {.dOrigin = {}, .dDirection = {Vec3{}, Vec3{}, du.c[0], du.c[1]}};
   }
 
+  LightExtent extent() const noexcept override { return {{location_, location_}}; }
+
   Rgb power() const noexcept override { return 4 * kPi * intensity_; }
 
  private:

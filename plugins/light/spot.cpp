@@ -96,6 +96,10 @@ class Spot final : public Light {
     return {.dOrigin = {}, .dDirection = {Vec3{}, Vec3{}, f.toWorld(du.c[0]), f.toWorld(du.c[1])}};
   }
 
+  LightExtent extent() const noexcept override {
+    return {{location_, location_}, axis_, 0, std::acos(cosNone_)};
+  }
+
   Rgb power() const noexcept override {
     // The mean of the cubic is 1/2.
     return 2 * kPi * (1 - cosFull_ + (cosFull_ - cosNone_) / 2) * intensity_;

@@ -17,7 +17,8 @@ extern "C" struct VestigeError {
 /// SDK 2: SurfacePoint has second derivatives; Host::note(); `lacks`, which derivatives are
 /// missing; Light::usesSpread() and LightHit::spread; SceneView's texels() and usesFootprint();
 /// Parameter::isNonlinear; Footprint::alongMajor.
-/// SDK 3: SceneView::opacity().
+/// SDK 3: SceneView::opacity(); lights are chosen by place: Light::extent(), chooseLight() and
+/// lightChance() of a point.
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended

@@ -35,7 +35,7 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
     const Light& light = *scene.lights()[std::size_t(i)];
     LightHit hit{ray.from, direction, kInfinity, {}, {}, {}};
     if (spread) hit.spread[0] = spread[0], hit.spread[1] = spread[1];
-    const Real rival = ray.lightSamples * scene.lightChance(i) * light.pdf(hit);
+    const Real rival = ray.lightSamples * scene.lightChance(i, ray.from) * light.pdf(hit);
     sum += powerHeuristic(ray.density, rival) * light.eval(hit);
   }
   return sum;
@@ -46,7 +46,8 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
 inline Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
                        std::uint32_t index, Real samples = 1, Real scattered = 1) noexcept {
   const std::uint32_t dim = dimension::vertex(vertex);
-  const auto choice = c.scene.chooseLight(c.sampler.number(dim + dimension::kLightChoice, index));
+  const auto choice =
+      c.scene.chooseLight(s.position, c.sampler.number(dim + dimension::kLightChoice, index));
   if (!choice || !x.brdf) return {};
   const Light& light = *c.scene.lights()[std::size_t(choice->light)];
   const auto drawn = light.sample(s.position, c.sampler.pair(dim + dimension::kLight, index));

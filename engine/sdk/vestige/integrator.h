@@ -85,10 +85,13 @@ class SceneView {
   /// of choosing it included.
   virtual Real lightPdf(const Surface& surface, Vec3 from) const noexcept = 0;
 
-  /// Lights, and how to choose among them: by power.
   virtual std::span<const Light* const> lights() const noexcept = 0;
+  /// Chooses among them by power: for what starts at a light.
   virtual std::optional<LightChoice> chooseLight(Real u) const noexcept = 0;
-  virtual Real lightChance(int light) const noexcept = 0;
+  /// ... by what is likely to arrive at a point. Nullopt: nothing does from where u points.
+  virtual std::optional<LightChoice> chooseLight(Vec3 at, Real u) const noexcept = 0;
+  /// Of that choice, [0,1].
+  virtual Real lightChance(int light, Vec3 at) const noexcept = 0;
   /// Indices into lights() of those at infinity.
   virtual std::span<const int> infiniteLights() const noexcept = 0;
 

@@ -64,6 +64,15 @@ struct Particle {
   int variables = 4;  ///< how many of the numbers matter: 2 for point lights
 };
 
+/// Where a light is and where it shines: by this one of many is chosen that matters at a point. May
+/// say too much, never too little.
+struct LightExtent {
+  Bounds box;            ///< world; empty: anywhere, then the light is chosen by its power alone
+  Vec3 axis{0, 0, 1};    ///< unit, amid the normals (or axes) of its points
+  Real spread = kPi;     ///< rad, from the axis to the farthest normal
+  Real reach = kPi / 2;  ///< rad, from a normal to where nothing of its point arrives
+};
+
 class Light {
  public:
   virtual ~Light() = default;
@@ -96,6 +105,8 @@ class Light {
 
   /// Whether eval() looks at LightHit::spread: paths then carry differentials for it.
   virtual bool usesSpread() const noexcept { return false; }
+
+  virtual LightExtent extent() const noexcept { return {}; }
 
   /// Estimate of the whole flux, W: how often the light is chosen.
   virtual Rgb power() const noexcept = 0;

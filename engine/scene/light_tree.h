@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which light a vertex looks at: one that is likely to matter there.
+//
+// [CK18] Conty Estevez, Kulla. Importance sampling of many lights with adaptive tree splitting.
+//        HPG 2018.
+#pragma once
+#include <vestige/integrator.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace vestige {
+
+/// Chances by power, the same everywhere; each with a least chance, so that none is starved by a
+/// bright sun.
+class LightTable {
+ public:
+  /// What is not a number above 0 counts as 0. `counts`: how many lights stand behind each power,
+  /// if not one.
+  void build(const std::vector<double>& powers, const std::vector<double>& counts = {});
+  bool isEmpty() const noexcept { return chances_.empty(); }
+  /// Draws an entry by u in [0,1), which is stretched over that entry's share again.
+  LightChoice choose(Real& u) const noexcept;
+  Real chance(int entry) const noexcept { return chances_[std::size_t(entry)]; }
+
+ private:
+  std::vector<Real> chances_, upTo_;
+};
+
+/// What is known of some lights from afar.
+struct LightCluster {
+  Bounds box;
+  Vec3 axis{0, 0, 1};    ///< unit, amid the directions in which they shine
+  Real angle = 0;        ///< rad, from the axis to the farthest of their own axes
+  Real reach = kPi / 2;  ///< rad, from a light's own axis to where nothing of it arrives
+  Real power = 0;        ///< W, luminance
+
+  explicit LightCluster(const LightExtent& light, Real power) noexcept;
+  LightCluster(const LightCluster& a, const LightCluster& b) noexcept;
+
+  /// Roughly proportional to what arrives at a point; 0 only where nothing can.
+  Real importance(Vec3 at) const noexcept;
+};
+
+/// A binary tree over all lights that are somewhere; those that are not (at infinity, or of no
+/// extent) are chosen by power beside it.
+class LightTree {
+ public:
+  void build(std::span<const Light* const> lights);
+
+  /// Nullopt: there is none, or none of those it came down to reaches that point.
+  std::optional<LightChoice> choose(Vec3 at, Real u) const noexcept;
+  /// Of choose() saying so, [0,1].
+  Real chance(int light, Vec3 at) const noexcept;
+
+ private:
+  struct Node {
+    LightCluster cluster;
+    std::int32_t child;  ///< the first of two neighbours; below 0: ~light
+  };
+  struct Place {
+    std::int32_t entry;  ///< of the table
+    std::int32_t node;   ///< its leaf; below 0: none
+  };
+
+  void grow(std::int32_t node, std::span<std::int32_t> lights,
+            const std::vector<LightCluster>& clusters);
+  /// Of the first of two neighbours, in place of the second; nullopt: nothing arrives from either.
+  std::optional<Real> firstChance(std::int32_t first, Vec3 at) const noexcept;
+
+  LightTable table_;                   ///< lights beside the tree in order, then the tree
+  std::vector<std::int32_t> outside_;  ///< lights beside the tree
+  std::vector<Node> nodes_;            ///< [0] is the root; pairs of children side by side
+  std::vector<std::int32_t> parents_;  ///< of nodes
+  std::vector<Place> places_;          ///< by light
+};
+
+}  // namespace vestige

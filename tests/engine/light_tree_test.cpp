@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Choosing one of many lights: chances are those with which lights are drawn, no light that reaches
+// a point is left out, and what matters there is drawn more often.
+#include "engine/scene/light_tree.h"
+
+#include <memory>
+
+#include "support/catch.h"
+#include "support/differences.h"
+
+namespace vestige::test {
+namespace {
+
+/// A lamp that shines evenly into a cone; `reach` kPi: everywhere.
+class Lamp final : public Light {
+ public:
+  Lamp(Vec3 location, Real watts, Vec3 axis = {0, 0, 1}, Real reach = kPi)
+      : location_(location), axis_(axis), watts_(watts), reach_(reach) {}
+
+  bool isDelta() const noexcept override { return true; }
+  std::optional<LightSample> sample(Vec3, Vec2) const noexcept override { return std::nullopt; }
+  Real pdf(const LightHit&) const noexcept override { return 0; }
+  Rgb eval(const LightHit&) const noexcept override { return {}; }
+  LightJacobian sampleDerivatives(Vec3, Vec2) const noexcept override { return {}; }
+  LightLogGradient logGradient(Vec3, Vec2) const noexcept override { return {}; }
+  std::optional<Particle> emit(EmissionNumbers) const noexcept override { return std::nullopt; }
+  RayJacobian emissionDerivatives(EmissionNumbers) const noexcept override { return {}; }
+  LightExtent extent() const noexcept override {
+    if (isAnywhere) return {};
+    return {{location_, location_}, axis_, 0, reach_};
+  }
+  Rgb power() const noexcept override { return grey(watts_); }
+
+  /// Across the way to it.
+  double irradiance(Vec3 at) const {
+    const Vec3 way = at - location_;
+    if (isAnywhere) return double(watts_);
+    if (dot(normalize(way), axis_) < std::cos(reach_)) return 0;
+    return double(watts_ / lengthSquared(way));
+  }
+
+  bool isAnywhere = false;
+
+ private:
+  Vec3 location_, axis_;
+  Real watts_, reach_;
+};
+
+struct Lamps {
+  std::vector<std::unique_ptr<Lamp>> owned;
+  std::vector<const Light*> list;
+  LightTree tree;
+
+  Lamp& add(const Lamp& lamp) {
+    owned.push_back(std::make_unique<Lamp>(lamp));
+    list.push_back(owned.back().get());
+    return *owned.back();
+  }
+  void build() { tree.build(list); }
+  double irradiance(Vec3 at) const {
+    double sum = 0;
+    for (const auto& l : owned) sum += l->irradiance(at);
+    return sum;
+  }
+};
+
+Vec3 within(Real size, Random& r) { return r.point(-size / 2, size / 2); }
+
+Lamps mixture(int n, std::uint32_t seed) {
+  Random r(seed);
+  Lamps lamps;
+  for (int i = 0; i < n; ++i) {
+    const Vec3 axis = normalize(within(1, r));
+    const Real reach = i % 3 == 0 ? kPi : Real(0.2) + r.number() * 2;
+    const Vec3 location = within(10, r);
+    lamps.add({location, 10 * sqr(r.number()), axis, reach});
+    if (i % 20 == 7) lamps.owned.back()->isAnywhere = true;
+  }
+  lamps.build();
+  return lamps;
+}
+
+}  // namespace
+
+TEST_CASE("lights are chosen with the chances that are told", "[lights]") {
+  for (const int n : {1, 2, 3, 17, 200}) {
+    const Lamps lamps = mixture(n, std::uint32_t(n));
+    Random r(3);
+    for (int place = 0; place < 10; ++place) {
+      const Vec3 at = within(place < 5 ? 10 : 100, r);
+      constexpr int kDraws = 100000;
+      std::vector<int> drawn(lamps.list.size());
+      int nothing = 0;
+      for (int i = 0; i < kDraws; ++i) {
+        const auto choice = lamps.tree.choose(at, (Real(i) + Real(0.5)) / kDraws);
+        if (!choice) {
+          ++nothing;
+          continue;
+        }
+        ++drawn[std::size_t(choice->light)];
+        const Real told = lamps.tree.chance(choice->light, at);
+        if (std::abs(told - choice->chance) > Real(1e-4) * told) {
+          FAIL("light " << choice->light << ": chance " << choice->chance << ", told " << told);
+        }
+      }
+      double sum = double(nothing) / kDraws;
+      for (std::size_t l = 0; l < drawn.size(); ++l) {
+        const auto chance = double(lamps.tree.chance(int(l), at));
+        INFO(n << " lights, light " << l << " at place " << place);
+        CHECK(std::abs(double(drawn[l]) / kDraws - chance) < 3e-5 + 1e-3 * chance);
+        if (drawn[l] > 0) sum += chance;
+      }
+      CHECK(sum == Approx(1).margin(2e-3));
+    }
+  }
+}
+
+TEST_CASE("no light that reaches a point is left out", "[lights]") {
+  const Lamps lamps = mixture(300, 5);
+  Random r(4);
+  for (int place = 0; place < 300; ++place) {
+    const Vec3 at = within(12, r);
+    for (std::size_t l = 0; l < lamps.owned.size(); ++l)
+      if (lamps.owned[l]->irradiance(at) > 0) {
+        INFO("light " << l << " at " << at.x << ' ' << at.y << ' ' << at.z);
+        REQUIRE(lamps.tree.chance(int(l), at) > 0);
+      }
+  }
+}
+
+TEST_CASE("lights that matter are chosen more often", "[lights]") {
+  Random r(6);
+  Lamps lamps;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 location = within(10, r);
+    lamps.add({location, 10 * sqr(r.number())});
+  }
+  lamps.build();
+  LightTable byPower;
+  std::vector<double> powers;
+  for (const Light* l : lamps.list) powers.push_back(double(l->power().r));
+  byPower.build(powers);
+  double better = 0;
+  for (int place = 0; place < 20; ++place) {
+    const Vec3 at = within(10, r);
+    const double truth = lamps.irradiance(at);
+    constexpr int kDraws = 20000;
+    double sum = 0, squares = 0, tableSquares = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      const auto choice = lamps.tree.choose(at, r.number());
+      const double x =
+          choice ? lamps.owned[std::size_t(choice->light)]->irradiance(at) / double(choice->chance)
+                 : 0;
+      sum += x, squares += x * x;
+      Real u = r.number();
+      const LightChoice other = byPower.choose(u);
+      const double y = lamps.owned[std::size_t(other.light)]->irradiance(at) / double(other.chance);
+      tableSquares += y * y;
+    }
+    const double mean = sum / kDraws, variance = squares / kDraws - mean * mean;
+    INFO("place " << place << ": " << mean << ", truth " << truth);
+    CHECK(std::abs(mean - truth) < 5 * std::sqrt(variance / kDraws));
+    better += std::log((tableSquares / kDraws - truth * truth) / variance) / 20;
+  }
+  INFO("variance by power is " << std::exp(better) << " times that of the tree");
+  CHECK(better > std::log(10));
+}
+
+TEST_CASE("a tree of lights that are hard to tell apart", "[lights]") {
+  Lamps none;
+  none.build();
+  CHECK(!none.tree.choose({1, 2, 3}, Real(0.5)));
+
+  Lamps heap;  // all in one place, half of them dark or with a power that is no number
+  for (int i = 0; i < 1000; ++i)
+    heap.add({{1, 1, 1}, i % 4 == 0 ? Real(0) : i % 4 == 1 ? Real(NAN) : Real(2)});
+  heap.build();
+  for (const Vec3 at : {Vec3{1, 1, 1}, Vec3{5, 0, 0}, Vec3{1e6, 0, 0}}) {
+    double sum = 0;
+    for (int l = 0; l < 1000; ++l) sum += double(heap.tree.chance(l, at));
+    CHECK(sum == Approx(1).margin(1e-3));
+    CHECK(heap.tree.choose(at, Real(0.3)));
+  }
+
+  Lamps away;  // shines the other way: nothing is drawn, and nothing is lost
+  away.add({{0, 0, 0}, 1, {0, 0, 1}, Real(0.5)});
+  away.add({{0, 1, 0}, 1, {0, 0, 1}, Real(0.5)});
+  away.build();
+  CHECK(!away.tree.choose({0, 0, -5}, Real(0.5)));
+  CHECK(away.tree.choose({0, 0, 5}, Real(0.5)));
+}
+
+TEST_CASE("a hundred thousand lights", "[lights]") {
+  const Lamps lamps = mixture(100000, 2);
+  Random r(8);
+  int chosen = 0;
+  for (int place = 0; place < 100; ++place) {
+    const Vec3 at = within(10, r);
+    const auto choice = lamps.tree.choose(at, r.number());
+    if (!choice) continue;
+    ++chosen;
+    CHECK(lamps.tree.chance(choice->light, at) == Approx(choice->chance).epsilon(1e-3));
+  }
+  CHECK(chosen > 50);
+}
+
+}  // namespace vestige::test
