@@ -50,7 +50,7 @@ TEST_CASE("inspect: later samples stand for less, bounds can be chosen", "[app]"
     REQUIRE(r.exit == 0);
     return nlohmann::json::parse(r.out)["vertices"][0]["footprint"]["size"].get<double>();
   };
-  CHECK(size({"--sample", "15"}) == Approx(4.0 / 64 / 4).epsilon(1e-3));
+  CHECK(size({"--sample", "15"}) == Approx(4.0 / 64 * 1.6 * std::pow(16., -2. / 3)).epsilon(1e-3));
   CHECK(size({"--footprint", "local", "--spp", "16"}) == Approx(4.0 / 64 / 4).epsilon(1e-3));
   CHECK(size({"--footprint", "global", "--spp", "16"}) == Approx(4.0 / 64 / 4).epsilon(1e-3));
   CHECK(size({"--footprint", "pixel", "--spp", "1"}) == Approx(4.0 / 64).epsilon(1e-3));

@@ -160,7 +160,9 @@ TEST_CASE("deltas of each bound", "[footprint]") {
   {
     PathCount film;
     film.begin(15, 400000, 2);
-    CHECK(commonDelta(p, film) == Approx(0.25));  // sixteen cover the pixel
+    CHECK(commonDelta(p, film) == Approx(1.6 * std::pow(16., -2. / 3)));
+    film.begin(1, 400000, 2);
+    CHECK(commonDelta(p, film) == 1);  // two samples cover the pixel twice
   }
   p.bound = Bound::local;
   CHECK(commonDelta(p, c) == Approx(1 / std::sqrt(400000.0)));

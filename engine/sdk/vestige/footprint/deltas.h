@@ -27,14 +27,14 @@ struct DeltaPolicy {
   /// limit.
   Real limit = kInfinity;
   Real scale = 1;     ///< multiplies the bound
-  Real exponent = 0;  ///< replaces that of global (1/M) or safe (1/2, 2/3); 0: as it is
+  Real exponent = 0;  ///< replaces that of global (1/M) or safe (2/3); 0: as it is
 };
 
-/// Of the n-th of samples that share two numbers, the film's: n^(-1/2), so that together they cover
-/// the pixel; of more numbers n^(-2/3) (docs/adr/0006).
+/// Of the n-th of samples: n^(-2/3). Those that share two numbers, the film's, lie scattered over
+/// the pixel and must overlap to cover it: 1.6 times that (docs/adr/0006).
 inline Real safeDelta(Real n, int variables) noexcept {
-  if (variables <= 2) return 1 / std::sqrt(n);
-  return 1 / sqr(std::cbrt(n));
+  const Real delta = 1 / sqr(std::cbrt(n));
+  return variables <= 2 ? std::min(Real(1), Real(1.6) * delta) : delta;
 }
 
 /// How many paths there are like this one, and how many numbers made it.

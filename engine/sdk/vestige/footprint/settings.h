@@ -62,7 +62,7 @@ inline std::vector<Schema> footprintSchemas() {
                   real("exponent", 0)
                       .unset()
                       .range(0, 8)
-                      .doc("of the sample count in global (1/M) and safe (1/2, then 2/3)")};
+                      .doc("of the sample count in global (1/M) and safe (2/3)")};
     all.push_back(std::move(s));
   }
   return all;
