@@ -55,8 +55,8 @@ struct CameraRay {
   RayJacobian jacobian;
 };
 std::optional<CameraRay> cameraRay(const Camera& camera, const PixelFilterSampler& filter,
-                                   const Sampler& sampler, int x, int y, int width,
-                                   int height) noexcept {
+                                   const Sampler& sampler, int x, int y, int width, int height,
+                                   bool wantsJacobian) noexcept {
   const Vec2 u = sampler.pair(dimension::kFilm);
   const FilterOffset dx = filter.sample(u.x), dy = filter.sample(u.y);
   const Real w = Real(width), h = Real(height);
@@ -66,6 +66,7 @@ std::optional<CameraRay> cameraRay(const Camera& camera, const PixelFilterSample
       w / h};
   const std::optional<CameraSample> ray = camera.sample(numbers);
   if (!ray) return std::nullopt;
+  if (!wantsJacobian) return CameraRay{*ray, {}};
   CameraRay result{*ray, camera.sampleDerivatives(numbers)};
   for (auto* d : {&result.jacobian.dOrigin, &result.jacobian.dDirection}) {
     (*d)[0] *= dx.slope / w;
@@ -79,8 +80,8 @@ void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& co
   const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, job.seed);
   Aovs aovs;
   ++counters.paths;
-  const auto start =
-      cameraRay(job.camera, job.filter, sampler, x, y, job.film.width(), job.film.height());
+  const auto start = cameraRay(job.camera, job.filter, sampler, x, y, job.film.width(),
+                               job.film.height(), job.wantsFootprint || job.scene.usesFootprints());
   if (!start) return job.film.add(x, y, {}, aovs, counters);
   PathContext context{.scene = job.scene,
                       .sampler = sampler,
@@ -250,7 +251,7 @@ Rgb inspectSample(Scene& scene, const Film& film, int x, int y, std::uint32_t in
   scene.integrator().prepare({scene.view(), options.seed, 1, goOn});
   const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, options.seed);
   const auto start = cameraRay(scene.camera(), PixelFilterSampler(scene.film().filter), sampler, x,
-                               y, film.width(), film.height());
+                               y, film.width(), film.height(), true);
   if (!start) return {};
   PathContext context{.scene = scene.view(),
                       .sampler = sampler,

@@ -194,6 +194,7 @@ std::optional<Real> LightTree::firstChance(std::int32_t first, Vec3 at) const no
 
 std::optional<LightChoice> LightTree::choose(Vec3 at, Real u) const noexcept {
   if (table_.isEmpty()) return std::nullopt;
+  if (places_.size() == 1) return LightChoice{0, 1};  // most scenes have one
   const LightChoice entry = table_.choose(u);
   if (entry.light < int(outside_.size()))
     return LightChoice{outside_[std::size_t(entry.light)], entry.chance};

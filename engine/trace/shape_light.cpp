@@ -124,8 +124,10 @@ class MeshLight final : public SurfaceLight {
     const Triangles::Edges e = triangles_.edges(k);
     const Real stretch = Real(total / width);
     const auto column = [&](Vec2 d) { return d.x * e.ab + d.y * e.ac; };
-    return AreaSample{
-        triangles_.at(k, t.b), {stretch * column(t.du[0]), column(t.du[1])}, {}, Real(1 / total)};
+    return AreaSample{triangles_.at(k, t.b, e),
+                      {stretch * column(t.du[0]), column(t.du[1])},
+                      {},
+                      Real(1 / total)};
   }
   Real areaPdf(Vec3) const noexcept override { return sums_.empty() ? 0 : Real(1 / sums_.back()); }
   Real area() const noexcept override { return sums_.empty() ? 0 : Real(sums_.back()); }

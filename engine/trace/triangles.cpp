@@ -68,7 +68,7 @@ Triangles::Edges Triangles::edges(std::uint32_t triangle) const noexcept {
   return {a, rounded(ab), rounded(ac), rounded({s * n.x, s * n.y, s * n.z}), Real(l / 2)};
 }
 
-SurfacePoint Triangles::at(std::uint32_t triangle, Vec2 b) const noexcept {
+SurfacePoint Triangles::at(std::uint32_t triangle, Vec2 b, const Edges& e) const noexcept {
   const auto& c = triangles_[triangle];
   const Vec3 p[3] = {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
   SurfacePoint s;
@@ -77,7 +77,6 @@ SurfacePoint Triangles::at(std::uint32_t triangle, Vec2 b) const noexcept {
   for (int k = 0; k < 3; ++k)
     s.position[k] = Real(double(p[0][k]) + b.x * (double(p[1][k]) - p[0][k]) +
                          b.y * (double(p[2][k]) - p[0][k]));
-  const Edges e = edges(triangle);
   s.geometricNormal = e.normal;
   shade(s, c, b, e);
   return s;

@@ -16,15 +16,16 @@ class Triangles {
   const std::vector<std::array<std::uint32_t, 3>>& indices() const noexcept { return triangles_; }
   Bounds bounds() const noexcept;
 
-  /// The point with barycentric coordinates b of the second and third corner.
-  SurfacePoint at(std::uint32_t triangle, Vec2 b) const noexcept;
-
   struct Edges {
     Vec3 a, ab, ac;
     Vec3 normal;  ///< unit, on the side of cross(ab, ac) in the mesh's own space
     Real area;
   };
   Edges edges(std::uint32_t triangle) const noexcept;
+
+  /// The point with barycentric coordinates b of the second and third corner; `edges` are those of
+  /// the triangle.
+  SurfacePoint at(std::uint32_t triangle, Vec2 b, const Edges& edges) const noexcept;
 
   /// Where a ray in this space meets the triangle's plane, in full precision.
   struct Meeting {

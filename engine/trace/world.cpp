@@ -95,11 +95,13 @@ void World::Impl::fillTriangle(Surface& s, const Item& item, const Ray& ray,
     hit.t = exact.t, hit.b = exact.b;
   }
   const Vec2 b = clampBarycentric(hit.b);
-  const SurfacePoint local = item.triangles->at(std::uint32_t(hit.primitive), b);
+  const auto triangle = std::uint32_t(hit.primitive);
+  const Triangles::Edges edges = item.triangles->edges(triangle);
+  const SurfacePoint local = item.triangles->at(triangle, b, edges);
   static_cast<SurfacePoint&>(s) = item.baked ? local : item.place.world(local);
   s.distance = hit.t;
   s.patchUv = b;
-  s.offset = triangleOffset(item, s, item.triangles->edges(std::uint32_t(hit.primitive)));
+  s.offset = triangleOffset(item, s, edges);
 }
 
 void World::Impl::fillShape(Surface& s, const Item& item, const Ray& ray,

@@ -229,9 +229,10 @@ class PathRecord {
 struct PathContext {
   const SceneView& scene;
   Sampler sampler;
-  Ray ray;                  ///< into the scene
-  RayJacobian jacobian;     ///< of that ray, per unit of the film's and lens's random numbers
-  int cameraVariables = 2;  ///< 2, or 4 with a lens
+  Ray ray;               ///< into the scene
+  RayJacobian jacobian;  ///< of that ray, per unit of the film's and lens's random numbers; not
+                         ///< known where nobody wants a footprint and nothing is looked up over one
+  int cameraVariables = 2;            ///< 2, or 4 with a lens
   std::uint64_t declaredSamples = 0;  ///< samples a pixel the scene asked for; 0: open ended
   Counters& counters;
   Aovs* aovs = nullptr;          ///< null: not wanted
