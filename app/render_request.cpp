@@ -11,7 +11,8 @@
 namespace vestige::app {
 namespace {
 
-constexpr int kMaxSide = 65536;  // pixels
+constexpr int kMaxSide = 65536;       // pixels
+constexpr double kLeastNoise = 1e-4;  // already more than a million samples for most pixels
 constexpr Aov kAovs[] = {Aov::normal,  Aov::albedo,    Aov::depth,           Aov::position, Aov::uv,
                          Aov::samples, Aov::footprint, Aov::footprintTexels, Aov::gradient};
 
@@ -52,6 +53,13 @@ void addQuality(CLI::App& command, RenderRequest& r) {
   command.add_option_function<std::string>("--time", time, "stop after this time: 30s, 2m, 1h30m")
       ->take_last()
       ->type_name("TIME")
+      ->group(group);
+  addNumber(
+      command, "--noise", kLeastNoise, 1, [&](double x) { r.render.noise = x; },
+      "stop where the noise, as a share of the brightness, is below X: 0.1 a sketch, 0.02 good; "
+      "half of it takes four times the samples. What the scene says does not count then: a pixel "
+      "takes up to 65536 samples; --spp sets another limit, --time one in time; the first reached "
+      "ends it")
       ->group(group);
   addInteger(
       command, "--seed", 0, 0xffffffff, [&](auto n) { r.render.seed = std::uint32_t(n); },

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adaptive sampling: samples go where noise is, the noise asked for is the noise that comes out,
+// and stopping early does not make the picture darker.
+#include "engine/render/adaptive.h"
+
+#include <limits>
+
+#include "engine/render/session.h"
+#include "support/catch.h"
+#include "support/scenes.h"
+
+using namespace vestige;
+using test::makeBlock;
+
+namespace {
+
+struct Rendered {
+  Film film;
+  RenderResult result;
+};
+
+Rendered rendered(const SceneDesc& description, const RenderOptions& options) {
+  Diagnostics diagnostics;
+  auto scene = buildScene(description, test::registry(), {}, diagnostics);
+  REQUIRE(scene);
+  Film film = makeFilm(*scene, 0, 0, nullptr, {Aov::samples});
+  const RenderResult result = render(*scene, film, options);
+  return {film, result};
+}
+
+/// 64 x 32 pixels: left the plain sky, without any noise; right a wall lit by the sky and by two
+/// squares, of which each sample asks one.
+SceneDesc skyAndWall() {
+  const auto light = [](double x, double radiance) {
+    return makeBlock("light", "area",
+                     {{"corner", vectorValue({x, 3, -2})},
+                      {"edge1", vectorValue({1, 0, 0})},
+                      {"edge2", vectorValue({0, 0, 1})},
+                      {"radiance", colourValue(radiance, radiance, radiance)}});
+  };
+  SceneDesc s;
+  s.blocks = {makeBlock("camera", "pinhole",
+                        {{"location", vectorValue({0, 0, -4})},
+                         {"look_at", vectorValue({0, 0, 0})},
+                         {"angle", numberValue(60)}}),
+              makeBlock("film", "", {{"resolution", vectorValue({64, 32})}}),
+              makeBlock("integrator", "path", {{"depth", numberValue(2)}}),
+              makeBlock("light", "environment", {{"radiance", colourValue(1, 1, 1)}}),
+              light(0.5, 10),
+              light(2.5, 30),
+              test::quad({0, -9, 0}, {9, 0, 0}, {0, 18, 0}, {test::lambert(0.5)})};
+  return s;
+}
+
+/// Root mean square of (luminance - reference) / reference over pixels [x0, x1) of all rows.
+double relativeError(const Film& film, const Film& reference, int x0, int x1) {
+  double sum = 0;
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = x0; x < x1; ++x) {
+      const double right = reference.luminance(x, y);
+      sum += std::pow((film.luminance(x, y) - right) / right, 2);
+    }
+  return std::sqrt(sum / (double(x1 - x0) * film.height()));
+}
+
+double meanLuminance(const Film& film) {
+  double sum = 0;
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) sum += film.luminance(x, y);
+  return sum / (double(film.width()) * film.height());
+}
+
+}  // namespace
+
+TEST_CASE("samples go where the noise is", "[adaptive]") {
+  const auto [film, result] = rendered(skyAndWall(), {.noise = 0.02, .threads = 2});
+  CHECK(result.end == RenderEnd::finished);
+  CHECK(result.quiet == 1);
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 24; ++x) CHECK(film.samples(x, y) == 16);
+    for (int x = 32; x < 64; ++x) CHECK(film.samples(x, y) >= 64);
+  }
+  CHECK(result.samples == 16);
+  CHECK(result.mostSamples == int(film.maxSamples()));
+  CHECK(result.meanSamples > 32);
+  CHECK(result.meanSamples < result.mostSamples);
+  const Film::Means m = film.means();  // the map is among the channels
+  CHECK(m.channels.back() == "samples");
+  CHECK(m.pixels[3] == 16);
+}
+
+TEST_CASE("the noise asked for is the noise that comes out", "[adaptive]") {
+  const SceneDesc s = skyAndWall();
+  const Film reference = rendered(s, {.samples = 16384, .seed = 99, .threads = 2}).film;
+  for (const double noise : {0.08, 0.05, 0.03, 0.02, 0.01}) {
+    const auto [film, result] = rendered(s, {.noise = noise, .seed = 1, .threads = 2});
+    const double error = relativeError(film, reference, 32, 64);
+    WARN("asked " << noise << ", got " << error << " by " << result.mostSamples);
+    CHECK(error < 1.5 * noise);
+    CHECK(error > noise / 3);
+  }
+}
+
+TEST_CASE("stopping where it looks quiet does not make the picture darker", "[adaptive]") {
+  const SceneDesc s = test::room(0.7, "path", {{"depth", numberValue(4)}});
+  const double expected =
+      meanLuminance(rendered(s, {.samples = 4096, .seed = 99, .threads = 2}).film);
+  constexpr int kSeeds = 24;
+  double sum = 0, squares = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const double mean =
+        meanLuminance(rendered(s, {.noise = 0.1, .seed = std::uint32_t(seed), .threads = 2}).film);
+    sum += mean, squares += mean * mean;
+  }
+  const double mean = sum / kSeeds;
+  const double error = std::sqrt((squares / kSeeds - mean * mean) / (kSeeds - 1));
+  WARN(mean << " expected " << expected << " error " << error);
+  CHECK(std::abs(mean - expected) < 3.5 * error);
+  CHECK(error < 2e-3 * expected);  // else the line above says nothing
+}
+
+TEST_CASE("one thread or two: the same samples, the same bits", "[adaptive]") {
+  const SceneDesc s = test::room(0.7, "path", {{"depth", numberValue(4)}});
+  const Film one = rendered(s, {.noise = 0.1, .seed = 3, .threads = 1}).film;
+  const Film two = rendered(s, {.noise = 0.1, .seed = 3, .threads = 2}).film;
+  CHECK(one.minSamples() < one.maxSamples());
+  CHECK(one.means().pixels == two.means().pixels);
+}
+
+TEST_CASE("a pixel of n samples is the pixel of a render of n samples", "[adaptive]") {
+  const SceneDesc s = test::room(0.7, "path", {{"depth", numberValue(4)}});
+  const Film film = rendered(s, {.noise = 0.1, .seed = 3, .threads = 2}).film;
+  int compared = 0;
+  for (int n = 16; n <= int(film.maxSamples()); n *= 2) {
+    const Film plain = rendered(s, {.samples = n, .seed = 3, .threads = 2}).film;
+    for (int y = 0; y < film.height(); ++y)
+      for (int x = 0; x < film.width(); ++x)
+        if (int(film.samples(x, y)) == n) {
+          CHECK(film.luminance(x, y) == plain.luminance(x, y));
+          ++compared;
+        }
+  }
+  CHECK(compared == film.width() * film.height());
+}
+
+TEST_CASE("samples, time and noise: the first reached ends the render", "[adaptive]") {
+  const SceneDesc s = skyAndWall();
+  const auto [few, capped] = rendered(s, {.samples = 40, .noise = 1e-3, .threads = 2});
+  CHECK(capped.end == RenderEnd::finished);
+  CHECK(few.maxSamples() == 40);
+  CHECK(few.samples(0, 0) == 16);
+  CHECK(capped.quiet < 0.6);
+  const auto [late, timed] = rendered(s, {.seconds = 0.3, .noise = 1e-4, .threads = 2});
+  CHECK(timed.end == RenderEnd::timeUp);
+  CHECK(late.samples(0, 0) == 16);
+  CHECK(late.samples(63, 0) >= 16);
+  const auto [quick, quiet] = rendered(s, {.samples = 1 << 20, .seconds = 100, .noise = 0.1});
+  CHECK(quiet.end == RenderEnd::finished);
+  CHECK(quiet.mostSamples < 1024);
+}
+
+TEST_CASE("the share of the work done rises to its end", "[adaptive]") {
+  RenderOptions options{.noise = 0.005, .threads = 2};
+  double share = 0, quiet = 0;
+  int told = 0;
+  options.progress = [&](const Progress& p) {
+    CHECK(p.share >= share);
+    CHECK(p.share <= 1);
+    CHECK(p.quiet >= quiet);
+    share = p.share, quiet = p.quiet, ++told;
+  };
+  rendered(skyAndWall(), options);
+  CHECK(told > 2);
+  CHECK(share > 0.5);
+}
+
+TEST_CASE("a block waits for a neighbour that is far from quiet", "[adaptive]") {
+  Film film(40, 8, {0, 0, 40, 8}, {});
+  Counters counters;
+  Adaptive adaptive(film, 0.1);
+  // Black and white in turn pairs of samples in the first block, grey elsewhere.
+  const auto add = [&](int from, int to) {
+    for (int i = from; i < to; ++i)
+      for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 40; ++x)
+          if (adaptive.wants(x, y))
+            film.add(x, y, grey(x < 8 ? Real(i < 8 ? 0.5 : 1) : Real(1)), {}, counters);
+    adaptive.judge(film, to);
+  };
+  add(0, 8);
+  CHECK(adaptive.wants(0, 0));  // too early
+  add(8, 16);
+  CHECK(adaptive.wants(7, 7));  // moved from 0.5 to 0.75
+  CHECK(adaptive.wants(8, 0));
+  CHECK_FALSE(adaptive.wants(16, 0));
+  CHECK(adaptive.quiet() == Approx(0.6));
+  add(16, 32);  // to 0.875: 0.14 for the block, 0.1 for it and its neighbour
+  CHECK(adaptive.wants(0, 0) == (0.125 / 0.875 / std::sqrt(2) > 0.1));
+  add(32, 64);
+  CHECK(adaptive.isDone());
+}
+
+TEST_CASE("a black picture is quiet", "[adaptive]") {
+  Film film(8, 8, {0, 0, 8, 8}, {});
+  Counters counters;
+  Adaptive adaptive(film, 0.01);
+  for (const int n : {8, 16}) {
+    while (int(film.minSamples()) < n)
+      for (int i = 0; i < 64; ++i) film.add(i % 8, i / 8, {}, {}, counters);
+    adaptive.judge(film, n);
+  }
+  CHECK(adaptive.isDone());
+}
