@@ -52,6 +52,29 @@ SceneDesc skyAndWall() {
   return s;
 }
 
+/// A wall in a dim sky before a lamp within a glass ball, which few samples find: most pixels look
+/// quiet, and too dark, for long.
+SceneDesc lampInGlass() {
+  SceneDesc s;
+  s.blocks = {makeBlock("camera", "pinhole",
+                        {{"location", vectorValue({0, 0, -4})},
+                         {"look_at", vectorValue({0, 0, 0})},
+                         {"angle", numberValue(20)}}),
+              makeBlock("film", "", {{"resolution", vectorValue({24, 24})}}),
+              makeBlock("integrator", "path", {{"depth", numberValue(5)}}),
+              makeBlock("light", "environment", {{"radiance", colourValue(0.1, 0.1, 0.1)}}),
+              makeBlock("light", "area",
+                        {{"corner", vectorValue({-0.3, 2, -2})},
+                         {"edge1", vectorValue({0.6, 0, 0})},
+                         {"edge2", vectorValue({0, 0.2, 0.6})},
+                         {"radiance", colourValue(20, 20, 20)}}),
+              makeBlock("shape", "sphere",
+                        {{"centre", vectorValue({0, 2, -1.7})}, {"radius", numberValue(0.6)}},
+                        {makeBlock("brdf", "glass", {{"ior", numberValue(1.2)}})}),
+              test::quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, {test::lambert(0.5)})};
+  return s;
+}
+
 /// Root mean square of (luminance - reference) / reference over pixels [x0, x1) of all rows.
 double relativeError(const Film& film, const Film& reference, int x0, int x1) {
   double sum = 0;
@@ -121,14 +144,14 @@ TEST_CASE("the noise asked for is the noise that comes out", "[adaptive]") {
 }
 
 TEST_CASE("stopping where it looks quiet does not make the picture darker", "[adaptive]") {
-  const SceneDesc s = test::room(0.7, "path", {{"depth", numberValue(4)}});
-  const Estimate right = meanLuminance(s, {.samples = 256, .seed = 100, .threads = 2}, 8);
-  const Estimate adaptive = meanLuminance(s, {.noise = 0.1, .threads = 2}, 24);
+  const SceneDesc s = lampInGlass();
+  const Estimate right = meanLuminance(s, {.samples = 512, .seed = 100, .threads = 2}, 8);
+  const Estimate adaptive = meanLuminance(s, {.noise = 0.2, .threads = 2}, 16);
   const double error = std::hypot(right.error, adaptive.error);
   INFO(adaptive.mean << " +- " << adaptive.error << ", right " << right.mean << " +- "
                      << right.error);
   CHECK(std::abs(adaptive.mean - right.mean) < 3.5 * error);
-  CHECK(error < 2e-3 * right.mean);  // else the line above says nothing
+  CHECK(error < 0.02 * right.mean);  // else the line above says nothing
 }
 
 TEST_CASE("one thread or two: the same samples, the same bits", "[adaptive]") {
@@ -190,25 +213,25 @@ TEST_CASE("a block waits for a neighbour that is far from quiet", "[adaptive]") 
   Film film(40, 8, {0, 0, 40, 8}, {});
   Counters counters;
   Adaptive adaptive(film, 0.1);
-  // The first block's samples change after the eighth, by half; those of the others never.
+  // The first block's samples change after the eighth; those of the others never.
   const auto add = [&](int from, int to) {
     for (int i = from; i < to; ++i)
       for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 40; ++x)
           if (adaptive.wants(x, y))
-            film.add(x, y, grey(x < 8 ? Real(i < 8 ? 0.5 : 1) : Real(1)), {}, counters);
+            film.add(x, y, grey(x < 8 ? Real(i < 8 ? 0.45 : 1) : Real(1)), {}, counters);
     adaptive.judge(film, to);
   };
   add(0, 8);
   CHECK(adaptive.wants(0, 0));  // too early
   add(8, 16);
-  CHECK(adaptive.wants(7, 7));  // moved from 0.5 to 0.75
+  CHECK(adaptive.wants(7, 7));  // moved from 0.45 to 0.725
   CHECK(adaptive.wants(8, 0));
   CHECK_FALSE(adaptive.wants(16, 0));
   CHECK(adaptive.quiet() == Approx(0.6));
-  add(16, 32);  // to 0.875, by 0.14 of it: 0.101 over the block and its neighbour
-  CHECK(adaptive.wants(0, 0));
-  CHECK_FALSE(adaptive.wants(8, 0));  // 0.08 over three blocks, and none above 0.15
+  add(16, 32);                  // to 0.8625, by 0.16 of it
+  CHECK(adaptive.wants(0, 0));  // 0.11 over it and its neighbour
+  CHECK(adaptive.wants(8, 0));  // 0.09 over three blocks, but one of them is above 0.15
   add(32, 64);
   CHECK(adaptive.isDone());
 }
