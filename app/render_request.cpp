@@ -56,10 +56,9 @@ void addQuality(CLI::App& command, RenderRequest& r) {
       ->group(group);
   addNumber(
       command, "--noise", kLeastNoise, 1, [&](double x) { r.render.noise = x; },
-      "stop where the noise, as a share of the brightness, is below X: 0.1 a sketch, 0.02 good; "
-      "half of it takes four times the samples. What the scene says does not count then: a pixel "
-      "takes up to 65536 samples; --spp sets another limit, --time one in time; the first reached "
-      "ends it")
+      "stop where the noise is below this share of the brightness: 0.1 a sketch, 0.02 good; half "
+      "the number takes four times as long. Pixels then take as many samples as they need, at most "
+      "65536 whatever the scene says; with --spp at most that many, with --time as many as fit")
       ->group(group);
   addInteger(
       command, "--seed", 0, 0xffffffff, [&](auto n) { r.render.seed = std::uint32_t(n); },
