@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
@@ -28,6 +29,7 @@ void printJson(const Progress& p) {
                                  {"samples", p.samples}, {"wanted", nullptr}};
   if (p.remaining >= 0) line["remaining"] = p.remaining;
   if (p.wanted > 0) line["wanted"] = p.wanted;
+  if (p.quiet >= 0) line["quiet"] = p.quiet;
   std::cout << line.dump() << std::endl;
 }
 
@@ -49,6 +51,7 @@ std::string progressText(const Progress& p) {
     text += fmt::format("{} of {} samples", p.samples, p.wanted);
   else
     text += count(p.samples, "sample");
+  if (p.quiet >= 0) text += fmt::format(", {:.0f} % quiet", std::floor(100 * p.quiet));
   if (p.remaining >= 0) text += fmt::format(", {} left", durationText(p.remaining));
   return text;
 }

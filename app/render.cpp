@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -50,6 +51,14 @@ void warnAboutTextures(const TextureUse& t) {
                     count((long long)t.readErrors, "piece"), t.unreadable));
 }
 
+/// "64 samples a pixel", "16 to 512 samples a pixel, 80 on average, 97 % of the pixels quiet".
+std::string samplesText(const Statistics& s) {
+  const RenderResult& r = s.render;
+  if (s.noise <= 0) return count(r.samples, "sample") + " a pixel";
+  return fmt::format("{} to {} a pixel, {:.0f} on average, {:.0f} % of the pixels quiet", r.samples,
+                     count(r.mostSamples, "sample"), r.meanSamples, std::floor(100 * r.quiet));
+}
+
 void reportWritten(const RenderRequest& r, const Statistics& s,
                    const std::vector<std::string>& files) {
   const ProgressStyle style = progressStyle(r.progress);
@@ -58,8 +67,8 @@ void reportWritten(const RenderRequest& r, const Statistics& s,
   const std::string why =
       s.render.end == RenderEnd::finished ? "" : fmt::format(", {}", endText(s.render.end));
   for (const std::string& file : files)
-    say(fmt::format("wrote {} ({} x {}, {} a pixel, {}{})", file, s.width, s.height,
-                    count(s.render.samples, "sample"), durationText(s.render.seconds), why));
+    say(fmt::format("wrote {} ({} x {}, {}, {}{})", file, s.width, s.height, samplesText(s),
+                    durationText(s.render.seconds), why));
 }
 
 /// False if the file could not be written.
@@ -83,7 +92,7 @@ Statistics statisticsOf(const RenderRequest& r, const LoadedScene& loaded, const
   Statistics s;
   s.importSeconds = importSeconds;
   s.loadSeconds = loaded.loadSeconds, s.buildSeconds = loaded.buildSeconds;
-  s.render = result, s.seed = r.render.seed;
+  s.render = result, s.seed = r.render.seed, s.noise = r.render.noise;
   s.textures = loaded.scene->textureUse(), s.triangles = loaded.scene->triangles();
   s.width = crop.x1 - crop.x0, s.height = crop.y1 - crop.y0;
   return s;

@@ -11,7 +11,8 @@
 namespace vestige::app {
 namespace {
 
-constexpr int kMaxSide = 65536;  // pixels
+constexpr int kMaxSide = 65536;       // pixels
+constexpr double kLeastNoise = 1e-4;  // already more than a million samples for most pixels
 constexpr Aov kAovs[] = {Aov::normal,  Aov::albedo,    Aov::depth,           Aov::position, Aov::uv,
                          Aov::samples, Aov::footprint, Aov::footprintTexels, Aov::gradient};
 
@@ -52,6 +53,12 @@ void addQuality(CLI::App& command, RenderRequest& r) {
   command.add_option_function<std::string>("--time", time, "stop after this time: 30s, 2m, 1h30m")
       ->take_last()
       ->type_name("TIME")
+      ->group(group);
+  addNumber(
+      command, "--noise", kLeastNoise, 1, [&](double x) { r.render.noise = x; },
+      "stop where the noise is below this share of the brightness: 0.1 a sketch, 0.02 good; half "
+      "the number takes four times as long. Pixels then take as many samples as they need, at most "
+      "65536 whatever the scene says; with --spp at most that many, with --time as many as fit")
       ->group(group);
   addInteger(
       command, "--seed", 0, 0xffffffff, [&](auto n) { r.render.seed = std::uint32_t(n); },

@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace vestige::app {
@@ -14,6 +15,13 @@ std::uint64_t peakMemoryBytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return std::uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+/// After --noise: what it came to.
+void addNoise(Json& json, const Statistics& s, const char* mean, const char* most) {
+  if (s.noise <= 0) return;
+  json[mean] = s.render.meanSamples, json[most] = s.render.mostSamples;
+  json["quiet_pixels"] = std::llround(s.render.quiet * s.width * s.height);
 }
 
 }  // namespace
@@ -31,37 +39,40 @@ const char* endText(RenderEnd end) {
 
 std::string statisticsJson(const Statistics& s) {
   const Counters& c = s.render.counters;
-  const Json json = {{"version", VESTIGE_VERSION},
-                     {"end", endText(s.render.end)},
-                     {"width", s.width},
-                     {"height", s.height},
-                     {"samples", s.render.samples},
-                     {"seed", s.seed},
-                     {"threads", s.render.threads},
-                     {"import_s", s.importSeconds},
-                     {"load_s", s.loadSeconds},
-                     {"build_s", s.buildSeconds},
-                     {"render_s", s.render.seconds},
-                     {"paths", c.paths},
-                     {"rays", c.rays},
-                     {"shadow_rays", c.shadowRays},
-                     {"nonfinite", c.nonFinite},
-                     {"clamped", c.clamped},
-                     {"triangles", s.triangles},
-                     {"texture_bytes", s.textures.held},
-                     {"textures_paged", s.textures.paged},
-                     {"texture_cache_bytes", s.textures.pagedLimit},
-                     {"texture_cache_used_bytes", s.textures.pagedUsed},
-                     {"texture_read_errors", s.textures.readErrors},
-                     {"peak_memory_bytes", peakMemoryBytes()}};
+  Json json = {{"version", VESTIGE_VERSION},
+               {"end", endText(s.render.end)},
+               {"width", s.width},
+               {"height", s.height},
+               {"samples", s.render.samples},
+               {"seed", s.seed},
+               {"threads", s.render.threads},
+               {"import_s", s.importSeconds},
+               {"load_s", s.loadSeconds},
+               {"build_s", s.buildSeconds},
+               {"render_s", s.render.seconds},
+               {"paths", c.paths},
+               {"rays", c.rays},
+               {"shadow_rays", c.shadowRays},
+               {"nonfinite", c.nonFinite},
+               {"clamped", c.clamped},
+               {"triangles", s.triangles},
+               {"texture_bytes", s.textures.held},
+               {"textures_paged", s.textures.paged},
+               {"texture_cache_bytes", s.textures.pagedLimit},
+               {"texture_cache_used_bytes", s.textures.pagedUsed},
+               {"texture_read_errors", s.textures.readErrors},
+               {"peak_memory_bytes", peakMemoryBytes()}};
+  if (s.noise > 0) json["noise"] = s.noise;
+  addNoise(json, s, "samples_mean", "samples_most");
   return json.dump(2);
 }
 
 std::string resultLine(const Statistics& s) {
-  const Json json = {{"import_s", s.importSeconds},
-                     {"load_s", s.loadSeconds + s.buildSeconds},
-                     {"render_s", s.render.seconds},
-                     {"spp_actual", s.render.samples}};
+  Json json = {{"import_s", s.importSeconds},
+               {"load_s", s.loadSeconds + s.buildSeconds},
+               {"render_s", s.render.seconds},
+               {"spp_actual", s.render.samples}};
+  addNoise(json, s, "spp_mean", "spp_most");
   return "RESULT " + json.dump();
 }
 

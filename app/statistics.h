@@ -18,6 +18,7 @@ struct Statistics {
   std::size_t triangles = 0;
   int width = 0, height = 0;  ///< pixels that were rendered
   std::uint32_t seed = 0;
+  double noise = 0;  ///< that was wanted; 0: none
 };
 
 /// "finished", "time is up", "interrupted".
@@ -25,7 +26,8 @@ const char* endText(RenderEnd end);
 
 /// The object of --stats.
 std::string statisticsJson(const Statistics& s);
-/// `RESULT {"import_s": .., "load_s": .., "render_s": .., "spp_actual": ..}`.
+/// `RESULT {"import_s": .., "load_s": .., "render_s": .., "spp_actual": ..}`; after --noise also
+/// "spp_mean", "spp_most" and "quiet_pixels".
 std::string resultLine(const Statistics& s);
 /// The last line of --progress json.
 std::string doneLine(const Statistics& s, const std::vector<std::string>& files);

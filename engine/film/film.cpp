@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace vestige {
 
@@ -119,6 +121,22 @@ std::uint32_t Film::samples(int x, int y) const noexcept { return counts_[index(
 
 std::uint32_t Film::minSamples() const noexcept {
   return *std::min_element(counts_.begin(), counts_.end());
+}
+
+std::uint32_t Film::maxSamples() const noexcept {
+  return *std::max_element(counts_.begin(), counts_.end());
+}
+
+double Film::meanSamples() const noexcept {
+  return std::accumulate(counts_.begin(), counts_.end(), 0.0) / double(counts_.size());
+}
+
+double Film::luminance(int x, int y) const noexcept {
+  const std::size_t pixel = index(x, y);
+  if (counts_[pixel] == 0) return 0;
+  const std::int64_t* sum = &sums_[pixel * std::size_t(channels_)];
+  const double total = 0.2126 * double(sum[0]) + 0.7152 * double(sum[1]) + 0.0722 * double(sum[2]);
+  return total * kFilmUnit / counts_[pixel];
 }
 
 Film::Means Film::means() const {

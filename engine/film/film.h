@@ -53,6 +53,11 @@ class Film {
   std::uint32_t samples(int x, int y) const noexcept;
   /// Fewest samples of any pixel.
   std::uint32_t minSamples() const noexcept;
+  /// Most samples of any pixel, and their mean over the pixels.
+  std::uint32_t maxSamples() const noexcept;
+  double meanSamples() const noexcept;
+  /// Luminance of the pixel's mean; 0 where no sample is.
+  double luminance(int x, int y) const noexcept;
 
   /// Means so far: R, G, B, then the AOVs' channels ("normal.X", "depth.Z", "uv.U", ...). Size of
   /// the crop window; black where no sample is.

@@ -3,12 +3,14 @@
 
 #include <xmmintrin.h>
 
+#include <bit>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include "engine/render/adaptive.h"
 #include "engine/render/pixel_filter.h"
 
 namespace vestige {
@@ -47,6 +49,9 @@ struct Job {
   std::uint64_t declaredSamples;
   bool wantsFootprint;
   int tilesX, tilesY;
+  const Adaptive* adaptive;  ///< null: all pixels alike
+
+  bool wants(int x, int y) const noexcept { return !adaptive || adaptive->wants(x, y); }
 };
 
 /// Where a sample's ray starts, and how that moves with its numbers.
@@ -95,12 +100,31 @@ void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& co
   job.film.add(x, y, start->ray.weight * job.integrator.estimate(context), aovs, counters);
 }
 
-void renderTile(const Job& job, int tile, std::uint32_t first, int count, Counters& counters) {
+/// Calls `visit(x, y)` for each pixel of a tile that wants samples.
+template <class Visit>
+void forPixels(const Job& job, int tile, const Visit& visit) {
   const Crop crop = job.film.crop();
   const int x0 = crop.x0 + tile % job.tilesX * kTile, y0 = crop.y0 + tile / job.tilesX * kTile;
   for (int y = y0; y < std::min(y0 + kTile, crop.y1); ++y)
     for (int x = x0; x < std::min(x0 + kTile, crop.x1); ++x)
-      for (int s = 0; s < count; ++s) samplePixel(job, x, y, first + std::uint32_t(s), counters);
+      if (job.wants(x, y)) visit(x, y);
+}
+
+/// Tiles with pixels that want samples.
+std::vector<int> openTiles(const Job& job) {
+  std::vector<int> tiles;
+  for (int tile = 0; tile < job.tilesX * job.tilesY; ++tile) {
+    bool isOpen = false;
+    forPixels(job, tile, [&](int, int) { isOpen = true; });
+    if (isOpen) tiles.push_back(tile);
+  }
+  return tiles;
+}
+
+void renderTile(const Job& job, int tile, std::uint32_t first, int count, Counters& counters) {
+  forPixels(job, tile, [&](int x, int y) {
+    for (int s = 0; s < count; ++s) samplePixel(job, x, y, first + std::uint32_t(s), counters);
+  });
 }
 
 void add(Counters& sum, const Counters& c) {
@@ -108,11 +132,12 @@ void add(Counters& sum, const Counters& c) {
   sum.nonFinite += c.nonFinite, sum.clamped += c.clamped;
 }
 
-/// One pass over all tiles by several threads, watched by the calling thread. False if `stop` said
+/// One pass over some tiles by several threads, watched by the calling thread. False if `stop` said
 /// so before the end; tiles under way are finished.
 class Pass {
  public:
-  Pass(const Job& job, std::uint32_t first, int count) : job_(job), first_(first), count_(count) {}
+  Pass(const Job& job, const std::vector<int>& tiles, std::uint32_t first, int count)
+      : job_(job), tiles_(tiles), first_(first), count_(count) {}
 
   /// `tick(share)` is called now and then; it returns true to stop.
   template <class Tick>
@@ -125,12 +150,12 @@ class Pass {
     ready_.notify_all();
     while (running_ > 0) {
       finished_.wait_for(lock, kTick);
-      if (tick(double(done_) / (job_.tilesX * job_.tilesY))) stop_ = true;
+      if (tick(double(done_) / double(tiles_.size()))) stop_ = true;
     }
     lock.unlock();
     for (std::thread& w : workers) w.join();
     add(total, counters_);
-    return done_ == job_.tilesX * job_.tilesY;
+    return std::size_t(done_) == tiles_.size();
   }
 
  private:
@@ -141,14 +166,15 @@ class Pass {
       std::unique_lock lock(mutex_);
       ready_.wait(lock, [this] { return started_; });
     }
-    for (int tile; !stop_ && (tile = next_++) < job_.tilesX * job_.tilesY; ++done_)
-      renderTile(job_, tile, first_, count_, counters);
+    for (std::size_t i; !stop_ && (i = std::size_t(next_++)) < tiles_.size(); ++done_)
+      renderTile(job_, tiles_[i], first_, count_, counters);
     const std::lock_guard lock(mutex_);
     add(counters_, counters);
     if (--running_ == 0) finished_.notify_all();
   }
 
   const Job& job_;
+  const std::vector<int>& tiles_;
   const std::uint32_t first_;
   const int count_;
   std::atomic<int> next_{0}, done_{0};
@@ -163,6 +189,7 @@ class Pass {
 int wantedSamples(const Integrator& integrator, const RenderOptions& options) {
   if (options.samples > 0) return options.samples;
   if (options.seconds > 0) return 0;  // until time is up
+  if (options.noise > 0) return kMostSamples;
   return integrator.samples() > 0 ? integrator.samples() : kDefaultSamples;
 }
 
@@ -191,19 +218,23 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
   const int wanted = wantedSamples(scene.integrator(), options);
   const auto cancelled = [&] { return options.cancel && options.cancel->load(); };
   const auto timeUp = [&] { return options.seconds > 0 && now() - start >= options.seconds; };
-  RenderResult result{RenderEnd::finished, 0, 0, threads, {}};
+  RenderResult result{.end = RenderEnd::finished, .threads = threads};
+  std::optional<Adaptive> adaptive;
+  if (options.noise > 0) adaptive.emplace(film, options.noise);
 
   double told = 0;  // when progress was last told: small pictures finish many passes a tick
   const auto report = [&](double share, int samples, const char* phase) {
     const double elapsed = now() - start;
     if (!options.progress || elapsed - told < kLeastTick) return;
     told = elapsed;
-    if (wanted == 0) share = std::min(1.0, elapsed / options.seconds);
     const double left = options.seconds > 0 ? options.seconds - elapsed : kInfinity;
-    const double bySamples = wanted > 0 && share > 0 ? elapsed * (1 - share) / share : kInfinity;
-    const double remaining = std::min(left, bySamples);
+    const bool isKnown = (wanted > 0 || adaptive) && share > 0;
+    const double remaining = std::min(left, isKnown ? elapsed * (1 - share) / share : kInfinity);
+    if (options.seconds > 0 && (adaptive || wanted == 0))
+      share = std::max(share, std::min(1.0, elapsed / options.seconds));
     options.progress({share, elapsed, std::isfinite(remaining) ? std::max(0.0, remaining) : -1,
-                      samples, wanted, phase});
+                      samples, adaptive ? options.samples : wanted, phase,
+                      adaptive ? adaptive->quiet() : -1});
   };
 
   const auto preparing = [&](double share) {
@@ -220,26 +251,41 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
                 film,
                 PixelFilterSampler(scene.film().filter),
                 options.seed,
-                std::uint64_t(wanted),
+                adaptive ? 0 : std::uint64_t(wanted),
                 film.wantsFootprint(),
                 (crop.x1 - crop.x0 + kTile - 1) / kTile,
-                (crop.y1 - crop.y0 + kTile - 1) / kTile};
+                (crop.y1 - crop.y0 + kTile - 1) / kTile,
+                adaptive ? &*adaptive : nullptr};
+  double farthest = 0;  // what is still to come by the noise is a guess; the bar shall not go back
+  const auto shareOf = [&](double samples) {
+    if (!adaptive) return wanted > 0 ? samples / wanted : 0.0;
+    const double share = adaptive->share(samples, wanted > 0 ? wanted : kMostSamples);
+    return farthest = std::max(farthest, share);
+  };
+  std::vector<int> tiles = openTiles(job);
   // Passes of 1, 1, 2, 4, ... samples: a picture soon, then little overhead.
   for (int done = int(film.minSamples()), pass = 1; result.end == RenderEnd::finished;) {
     if (wanted > 0 && done >= wanted) break;
     const int count = wanted > 0 ? std::min(pass, wanted - done) : pass;
-    const bool whole =
-        Pass(job, std::uint32_t(done), count).run(threads, result.counters, [&](double share) {
-          report(wanted > 0 ? (done + share * count) / wanted : 0, done, "rendering");
-          return cancelled() || timeUp();
-        });
+    const bool whole = Pass(job, tiles, std::uint32_t(done), count)
+                           .run(threads, result.counters, [&](double share) {
+                             report(shareOf(done + share * count), done, "rendering");
+                             return cancelled() || timeUp();
+                           });
     if (!whole) result.end = cancelled() ? RenderEnd::cancelled : RenderEnd::timeUp;
     done += count;
+    if (whole && adaptive && (std::has_single_bit(unsigned(done)) || done == wanted)) {
+      adaptive->judge(film, done);
+      tiles = openTiles(job);
+    }
+    if (adaptive && adaptive->isDone()) break;
     if (whole && timeUp() && done != wanted) result.end = RenderEnd::timeUp;
     if (whole && cancelled() && done != wanted) result.end = RenderEnd::cancelled;
     pass = std::min(kMaxPass, std::max(pass, done));
   }
-  result.samples = int(film.minSamples());
+  result.samples = int(film.minSamples()), result.mostSamples = int(film.maxSamples());
+  result.meanSamples = film.meanSamples();
+  if (adaptive) result.quiet = adaptive->quiet();
   result.seconds = now() - start;
   return result;
 }

@@ -14,13 +14,22 @@ struct Progress {
   double elapsed;     ///< seconds
   double remaining;   ///< seconds, estimate; negative: not known yet
   int samples;        ///< a pixel, finished
-  int wanted;         ///< a pixel; 0: until time is up
+  int wanted;         ///< a pixel; 0: until time is up or the noise is low enough
   const char* phase;  ///< "preparing", "rendering"
+  double quiet;       ///< share of the pixels at the noise wanted, [0,1]; negative: none is wanted
 };
 
+/// Samples a pixel at most where only the noise decides.
+inline constexpr int kMostSamples = 65536;
+
+/// Of samples, seconds and noise the one reached first ends the render.
 struct RenderOptions {
-  int samples = 0;     ///< a pixel; 0: what the scene says, or 16
+  int samples = 0;     ///< a pixel; 0: what the scene says, or 16; see also noise
   double seconds = 0;  ///< stop when this much time has passed; 0: no limit
+  /// Stop where the standard error of luminance over luminance is below this; 0: everywhere the
+  /// same number of samples. Needs an empty film. Without samples and seconds the most samples are
+  /// kMostSamples, whatever the scene says; paths do not know how many will follow.
+  double noise = 0;
   std::uint32_t seed = 0;
   int threads = 0;                            ///< 0: as many as the machine has
   const std::atomic<bool>* cancel = nullptr;  ///< set by a signal handler or a window
@@ -31,11 +40,14 @@ struct RenderOptions {
 enum class RenderEnd { finished, timeUp, cancelled };
 
 struct RenderResult {
-  RenderEnd end;
-  int samples;  ///< a pixel: the fewest that any pixel has
-  double seconds;
-  int threads;
-  Counters counters;
+  RenderEnd end = RenderEnd::finished;
+  int samples = 0;         ///< a pixel: the fewest that any pixel has
+  int mostSamples = 0;     ///< that any pixel has
+  double meanSamples = 0;  ///< over the pixels
+  double quiet = 1;        ///< share of the pixels that reached the noise wanted, [0,1]
+  double seconds = 0;
+  int threads = 0;
+  Counters counters = {};
 };
 
 /// Film resolution of a scene after the command line's wishes (0: the scene's), and its crop

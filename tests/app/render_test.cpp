@@ -154,6 +154,50 @@ TEST_CASE("progress as JSON is one object a line and ends with what was written"
   CHECK(lines.back().at("files") == json::array({png}));
 }
 
+TEST_CASE("--noise says what it came to", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string file = folder / "s.json";
+  const Run r = vestige({scene, "-o", folder / "a.png", "--noise", "0.1", "--width", "64",
+                         "--stats", file, "--result-line"});
+  INFO(r.err);
+  REQUIRE(r.exit == 0);
+  CHECK_THAT(r.err, containsText("16 to ") && containsText("100 % of the pixels quiet"));
+  std::ifstream in(file);
+  const json s = json::parse(in);
+  CHECK(s.at("end") == "finished");
+  CHECK(s.at("noise") == 0.1);
+  CHECK(s.at("samples") == 16);
+  CHECK(s.at("samples_most") > 16);
+  CHECK(s.at("samples_mean").get<double>() * 4096 == s.at("paths"));
+  CHECK(s.at("quiet_pixels") == 4096);
+  const json line = json::parse(r.out.substr(7));
+  CHECK(line.at("spp_mean") == s.at("samples_mean"));
+  CHECK(line.at("spp_most") == s.at("samples_most"));
+  CHECK(line.at("quiet_pixels") == 4096);
+}
+
+TEST_CASE("--noise: --spp and --time end it too, and progress tells how much is quiet", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const std::string png = folder / "a.png";
+  const Run few = vestige({scene, "-o", png, "--noise", "0.0001", "--spp", "20", "--stats", "-"});
+  CHECK(json::parse(few.out).at("samples_most") == 20);
+  CHECK(json::parse(few.out).at("quiet_pixels") < 256);
+  const Run r =
+      vestige({scene, "-o", png, "--noise", "0.0001", "--time", "1s", "--progress", "json"});
+  REQUIRE(r.exit == 0);
+  const std::vector<json> lines = objects(r.out);
+  REQUIRE(lines.size() >= 3);
+  double share = 0;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    CHECK(lines[i].at("share").get<double>() >= share);
+    CHECK(lines[i].at("quiet") <= 1);
+    share = lines[i].at("share");
+  }
+  CHECK(lines.back().at("end") == "time is up");
+}
+
 TEST_CASE("--time stops in time", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
@@ -168,9 +212,10 @@ TEST_CASE("an interrupted render keeps what is done", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string exr = folder / "a.exr";
-  for (const int signal : {2, 15}) {
+  const std::vector<std::string> spp = {"--spp", "100000000"}, noise = {"--noise", "0.0001"};
+  for (const auto& [signal, until] : {std::pair{2, spp}, {15, spp}, {2, noise}}) {
     const Run r =
-        vestige({scene, "-o", exr, "--spp", "100000000", "--progress", "json"},
+        vestige({scene, "-o", exr, until[0], until[1], "--progress", "json"},
                 {.folder = {}, .interruptAt = "\"rendering\"", .interruptSignal = signal});
     INFO(r.err);
     CHECK(r.exit == 130);

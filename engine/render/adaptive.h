@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the picture is quiet enough: how far it moved while its samples doubled is its error.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "engine/film/film.h"
+
+namespace vestige {
+
+/// Decides for blocks of pixels, after passes that double the samples, whether they need more.
+///
+/// Let M(m) be a pixel's mean luminance after m samples. For independent samples
+///     E[(M(n) - M(m))^2] = (1/m - 1/n) s^2, so (M(n) - M(m))^2 m / (n - m) estimates s^2 / n,
+/// the squared standard error: for n = 2m the half-difference of two halves. One pixel's estimate
+/// is worth little; averaged over nine blocks, 576 pixels, it hardly knows any one of them.
+/// docs/adaptive.md has measurements and limits.
+class Adaptive {
+ public:
+  /// `noise`: wanted standard error over luminance, > 0. Remembers one number a pixel.
+  Adaptive(const Film& film, double noise);
+
+  /// Whether the pixel needs more samples. [any thread; not during judge()]
+  bool wants(int x, int y) const noexcept { return !blocks_[block(x, y)].done; }
+
+  /// Looks at the film once all pixels that want samples hold `samples` of them. A block that is
+  /// done stays done. [main thread]
+  void judge(const Film& film, int samples);
+
+  bool isDone() const noexcept { return pixelsDone_ == pixels_; }
+  /// Share of the pixels that are done, [0,1].
+  double quiet() const noexcept { return double(pixelsDone_) / double(pixels_); }
+  /// Share of all work that is behind when open pixels hold `samples`, if errors fall with the
+  /// square root of it and no pixel takes more than `most`: [0,1], 0 before the first decision.
+  double share(double samples, int most) const noexcept;
+
+  static constexpr int kBlock = 8;          ///< pixels, width and height
+  static constexpr int kLeastSamples = 16;  ///< a pixel, before the first decision
+  /// Luminance that errors are relative to, at least, as a share of the picture's mean.
+  static constexpr double kFloor = 0.05;
+  /// A block waits for neighbours whose own error is above so many times the noise wanted.
+  static constexpr double kFar = 1.5;
+
+ private:
+  struct Block {
+    double error = 0;   ///< sum over pixels of (standard error / luminance)^2
+    double excess = 0;  ///< times the samples taken, to be done; <= 1: done
+    int pixels = 0;
+    bool done = false;
+  };
+  std::size_t block(int x, int y) const noexcept;
+  void measure(const Film& film, double scale);
+  double excess(int bx, int by) const noexcept;
+
+  Crop crop_;
+  double target_;  ///< noise^2
+  int blocksX_, blocksY_;
+  std::vector<Block> blocks_;
+  std::vector<double> luminance_;  ///< means when last judged
+  int samples_ = 0;                ///< a pixel, when last judged
+  double taken_ = 0;               ///< samples of the whole picture, when last judged
+  std::int64_t pixels_, pixelsDone_ = 0;
+};
+
+}  // namespace vestige
