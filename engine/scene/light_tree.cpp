@@ -75,12 +75,11 @@ void LightTable::build(const std::vector<double>& powers, const std::vector<doub
   }
 }
 
-LightChoice LightTable::choose(Real& u) const noexcept {
+LightChoice LightTable::choose(Real u) const noexcept {
   const auto found = std::upper_bound(upTo_.begin(), upTo_.end() - 1, u);
   const int entry = int(found - upTo_.begin());
   const Real low = entry > 0 ? upTo_[std::size_t(entry) - 1] : 0;
-  u = std::clamp((u - low) / chance(entry), Real(0), kOneMinusEpsilon);
-  return {entry, chance(entry)};
+  return {entry, chance(entry), std::clamp((u - low) / chance(entry), Real(0), kOneMinusEpsilon)};
 }
 
 LightCluster::LightCluster(const LightExtent& light, Real watts) noexcept
@@ -194,14 +193,15 @@ std::optional<Real> LightTree::firstChance(std::int32_t first, Vec3 at) const no
 
 std::optional<LightChoice> LightTree::choose(Vec3 at, Real u) const noexcept {
   if (table_.isEmpty()) return std::nullopt;
-  if (places_.size() == 1) return LightChoice{0, 1};  // most scenes have one
+  if (places_.size() == 1) return LightChoice{0, 1, u};  // most scenes have one
   const LightChoice entry = table_.choose(u);
   if (entry.light < int(outside_.size()))
-    return LightChoice{outside_[std::size_t(entry.light)], entry.chance};
+    return LightChoice{outside_[std::size_t(entry.light)], entry.chance, entry.rest};
   Real chance = entry.chance;
+  u = entry.rest;
   for (std::int32_t node = 0;;) {
     const std::int32_t child = nodes_[std::size_t(node)].child;
-    if (child < 0) return LightChoice{~child, chance};
+    if (child < 0) return LightChoice{~child, chance, u};
     const std::optional<Real> p = firstChance(child, at);
     if (!p) return std::nullopt;
     const bool isFirst = u < *p;

@@ -19,8 +19,8 @@ class LightTable {
   /// if not one.
   void build(const std::vector<double>& powers, const std::vector<double>& counts = {});
   bool isEmpty() const noexcept { return chances_.empty(); }
-  /// Draws an entry by u in [0,1), which is stretched over that entry's share again.
-  LightChoice choose(Real& u) const noexcept;
+  /// Draws an entry by u in [0,1).
+  LightChoice choose(Real u) const noexcept;
   Real chance(int entry) const noexcept { return chances_[std::size_t(entry)]; }
 
  private:

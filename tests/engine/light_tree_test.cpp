@@ -152,8 +152,7 @@ TEST_CASE("lights that matter are chosen more often", "[lights]") {
           choice ? lamps.owned[std::size_t(choice->light)]->irradiance(at) / double(choice->chance)
                  : 0;
       sum += x, squares += x * x;
-      Real u = r.number();
-      const LightChoice other = byPower.choose(u);
+      const LightChoice other = byPower.choose(r.number());
       const double y = lamps.owned[std::size_t(other.light)]->irradiance(at) / double(other.chance);
       tableSquares += y * y;
     }

@@ -46,11 +46,15 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
 inline Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
                        std::uint32_t index, Real samples = 1, Real scattered = 1) noexcept {
   const std::uint32_t dim = dimension::vertex(vertex);
-  const auto choice =
-      c.scene.chooseLight(s.position, c.sampler.number(dim + dimension::kLightChoice, index));
+  // One pair chooses the light and then its point: so the points are stratified on each light.
+  Vec2 u = c.sampler.pair(dim + dimension::kLight, index);
+  const auto choice = c.scene.chooseLight(s.position, u.x);
   if (!choice || !x.brdf) return {};
+  constexpr Real kFewBits = Real(1) / 256;
+  u.x = choice->chance > kFewBits ? choice->rest
+                                  : c.sampler.number(dim + dimension::kLightChoice, index);
   const Light& light = *c.scene.lights()[std::size_t(choice->light)];
-  const auto drawn = light.sample(s.position, c.sampler.pair(dim + dimension::kLight, index));
+  const auto drawn = light.sample(s.position, u);
   if (!drawn) return {};
   const Rgb f = evalScatter(x, drawn->hit.toLight);
   if (isBlack(f) || isBlack(drawn->radiance)) return {};
