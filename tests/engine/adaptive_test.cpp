@@ -137,8 +137,8 @@ TEST_CASE("the noise asked for is the noise that comes out", "[adaptive]") {
   const RenderOptions many{.samples = 2048, .seed = 99, .threads = 2};
   const SceneDesc wall = skyAndWall(), room = test::room(0.7, "path", {{"depth", numberValue(4)}});
   const Film wallReference = rendered(wall, many).film, roomReference = rendered(room, many).film;
-  check(wall, 32, 64, 0.06, 1 / 4.0, wallReference);
-  check(wall, 32, 64, 0.015, 1 / 1.5, wallReference);
+  check(wall, 32, 64, 0.06, 1 / 6.0, wallReference);
+  check(wall, 32, 64, 0.015, 1 / 3.0, wallReference);
   check(room, 0, 32, 0.1, 1 / 1.5, roomReference);
   check(room, 0, 32, 0.05, 1 / 1.5, roomReference);
 }
