@@ -41,6 +41,11 @@ void warnAboutCounters(const Counters& c) {
     warn(fmt::format("{} brighter than {:.0f} and {} cut down to it",
                      count((long long)c.clamped, "sample") + (c.clamped == 1 ? " was" : " were"),
                      kFilmLimit, c.clamped == 1 ? "was" : "were"));
+  if (c.clampedIndirect > 0)
+    warn(
+        fmt::format("the scene's clamp cut {} of indirect light down: the picture is a little too "
+                    "dark",
+                    count((long long)c.clampedIndirect, "contribution")));
 }
 
 void warnAboutTextures(const TextureUse& t) {

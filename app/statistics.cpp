@@ -55,6 +55,7 @@ std::string statisticsJson(const Statistics& s) {
                {"shadow_rays", c.shadowRays},
                {"nonfinite", c.nonFinite},
                {"clamped", c.clamped},
+               {"clamped_indirect", c.clampedIndirect},
                {"triangles", s.triangles},
                {"texture_bytes", s.textures.held},
                {"textures_paged", s.textures.paged},

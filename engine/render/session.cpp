@@ -130,6 +130,7 @@ void renderTile(const Job& job, int tile, std::uint32_t first, int count, Counte
 void add(Counters& sum, const Counters& c) {
   sum.rays += c.rays, sum.shadowRays += c.shadowRays, sum.paths += c.paths;
   sum.nonFinite += c.nonFinite, sum.clamped += c.clamped;
+  sum.clampedIndirect += c.clampedIndirect;
 }
 
 /// One pass over some tiles by several threads, watched by the calling thread. False if `stop` said

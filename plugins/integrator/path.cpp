@@ -35,7 +35,7 @@ struct Path {
 
 class PathIntegrator final : public Integrator {
  public:
-  enum Param { kSamples, kDepth, kFootprint };
+  enum Param { kSamples, kDepth, kFootprint, kClamp };
 
   static Schema schema() {
     return {.kind = "integrator",
@@ -47,13 +47,20 @@ class PathIntegrator final : public Integrator {
                     .range(1, 4096)
                     .doc("longest path in edges from the camera: 1 sees emitters, 2 direct light"),
                 block("footprint", "footprint")
-                    .doc("how large a region of a texture a path looks at (safe)")}};
+                    .doc("how large a region of a texture a path looks at (safe)"),
+                real("clamp", 0)
+                    .unset()
+                    .range(1e-6, 1e12)
+                    .in("W/(m^2 sr)")
+                    .doc("most that light of more than two edges may bring at once: fewer specks, "
+                         "and too little light; default: no limit")}};
   }
 
   explicit PathIntegrator(const Values& v)
       : samples_(int(v.integer(kSamples))),
         depth_(int(v.integer(kDepth))),
-        footprint_(footprintSettings(v.block(kFootprint), Bound::global)) {}
+        footprint_(footprintSettings(v.block(kFootprint), Bound::global)),
+        clamp_(v.has(kClamp) ? v.real(kClamp) : kInfinity) {}
 
   int samples() const noexcept override { return samples_; }
 
@@ -79,8 +86,9 @@ class PathIntegrator final : public Integrator {
         path.report.end(*hit, x.toPrev, path.throughput, "end", path.footprint);
         break;
       }
-      radiance += path.throughput *
-                  directLight(context, *hit, x, std::uint32_t(edge - 1), context.sampler.index());
+      radiance += clamped(context, edge + 1,
+                          path.throughput * directLight(context, *hit, x, std::uint32_t(edge - 1),
+                                                        context.sampler.index()));
       if (!scatter(context, path, *hit, x, edge)) break;
     }
     return radiance;
@@ -94,13 +102,15 @@ class PathIntegrator final : public Integrator {
       ++c.counters.rays;
       const std::optional<Surface> hit = c.scene.intersect(path.ray);
       if (!hit) {
-        radiance += path.throughput *
-                    filteredBackground(c.scene, path.drawn, path.ray.direction, path.footprint);
+        radiance +=
+            clamped(c, edge,
+                    path.throughput * filteredBackground(c.scene, path.drawn, path.ray.direction,
+                                                         path.footprint));
         path.report.gone("escape", path.ray.direction, path.throughput);
         return std::nullopt;
       }
       if (path.footprint) path.footprint->arrive(*hit, path.sceneSize);
-      radiance += path.throughput * metLight(c.scene, *hit, path.drawn);
+      radiance += clamped(c, edge, path.throughput * metLight(c.scene, *hit, path.drawn));
       const Vec3 toPrev = -path.ray.direction;
       x = edge > 1 && edge == depth_
               ? lastSurface(c.scene, *hit, toPrev)
@@ -115,6 +125,13 @@ class PathIntegrator final : public Integrator {
       path.ray = spawnRay(*hit, path.ray.direction);
     }
     return std::nullopt;
+  }
+
+  /// What light brings that came along so many edges, cut down to the scene's `clamp`.
+  Rgb clamped(PathContext& c, int edges, Rgb light) const noexcept {
+    if (edges <= 2 || !(maxComponent(light) > clamp_)) return light;
+    ++c.counters.clampedIndirect;
+    return clamp_ / maxComponent(light) * light;
   }
 
   /// Draws the next ray; false where the path ends.
@@ -158,6 +175,7 @@ class PathIntegrator final : public Integrator {
 
   int samples_, depth_;
   FootprintSettings footprint_;
+  Real clamp_;  ///< infinite: none
 };
 
 }  // namespace

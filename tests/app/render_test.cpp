@@ -136,6 +136,41 @@ TEST_CASE("statistics count what was done", "[app]") {
   CHECK(json::parse(r.out.substr(7)).at("spp_actual") == 3);
 }
 
+TEST_CASE("clamp cuts indirect light down, and says so", "[app]") {
+  const Folder folder;
+  // A mirror throws a small bright lamp onto the floor.
+  const auto rendered = [&](const std::string& more, const std::string& name) {
+    const std::string scene =
+        folder.write(name + ".scene",
+                     "camera pinhole { location <0, 2, -5>  look_at <0, 0.3, 0>  angle 40 }\n"
+                     "film { resolution <24, 16> }\n"
+                     "integrator path { samples 64  depth " +
+                         more +
+                         " }\n"
+                         "sphere { <0, 2.5, 0>, 0.5  emission rgb 50 }\n"
+                         "sphere { <0.8, 0.6, 0>, 0.6  brdf mirror { } }\n"
+                         "plane { <0, 1, 0>, 0  brdf lambert { diffuse rgb 0.5 } }\n");
+    const Run r = vestige({scene, "-o", folder / (name + ".exr"), "--stats", folder / "s.json"});
+    INFO(r.err);
+    REQUIRE(r.exit == 0);
+    std::ifstream in(folder / "s.json");
+    const auto count = json::parse(in).at("clamped_indirect").get<long>();
+    CHECK((r.err.find("clamp cut") != std::string::npos) == (count > 0));
+    return count;
+  };
+  CHECK(rendered("6", "free") == 0);
+  CHECK(rendered("6  clamp 1", "cut") > 0);
+  CHECK(rendered("2", "direct") == 0);
+  CHECK(rendered("2  clamp 0.001", "direct_cut") == 0);
+  const auto mean = [&](const std::string& a, const std::string& b) {
+    const Run r = vestige({"compare", "--json", folder / (a + ".exr"), folder / (b + ".exr")});
+    INFO(r.err);
+    return json::parse(r.out);
+  };
+  CHECK(mean("cut", "free").at("mean_ratio")[0].get<double>() < 0.999);
+  CHECK(mean("direct", "direct_cut").at("rmse") == 0);  // direct light is left alone
+}
+
 TEST_CASE("progress as JSON is one object a line and ends with what was written", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());

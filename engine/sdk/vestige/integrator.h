@@ -197,6 +197,7 @@ struct Aovs {
 /// What one thread counted.
 struct Counters {
   std::uint64_t rays = 0, shadowRays = 0, paths = 0, nonFinite = 0, clamped = 0;
+  std::uint64_t clampedIndirect = 0;  ///< contributions that an integrator's own limit cut down
 };
 
 /// The differentials at one vertex of a recorded path, on arrival there.
