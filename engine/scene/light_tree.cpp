@@ -132,12 +132,11 @@ void LightTree::build(std::span<const Light* const> lights) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light& light = *lights[i];
     const double power = sane(double(luminance(light.power())));
-    LightExtent extent = light.extent();
+    const LightExtent extent = light.extent();
     const bool isSomewhere =
         !light.isInfinite() && !extent.box.isEmpty() && !extent.box.isInfinite();
     places_.push_back({int(outside_.size()), isSomewhere ? 0 : -1});
-    // A power that is unknown must not make a light dark.
-    clusters.emplace_back(extent, std::max(Real(power), Real(1e-20)));
+    clusters.emplace_back(extent, Real(power));
     if (isSomewhere) {
       inside.push_back(int(i)), insidePower += power;
     } else {
@@ -145,6 +144,10 @@ void LightTree::build(std::span<const Light* const> lights) {
     }
   }
   if (!inside.empty()) {
+    // A power that is unknown, or told too small, must not make a light dark.
+    const double least = insidePower > 0 ? kEvenShare * insidePower / double(inside.size()) : 1;
+    for (const std::int32_t l : inside)
+      clusters[std::size_t(l)].power = std::max(clusters[std::size_t(l)].power, Real(least));
     powers.push_back(insidePower), counts.push_back(double(inside.size()));
     nodes_.push_back({clusters[std::size_t(inside[0])], 0});
     parents_.push_back(-1);

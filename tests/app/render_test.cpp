@@ -24,6 +24,15 @@ std::vector<json> objects(const std::string& text) {
   return found;
 }
 
+/// Of all lines but the last, which says what was written.
+void checkShareRises(const std::vector<json>& lines) {
+  double share = 0;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    CHECK(lines[i].at("share").get<double>() >= share);
+    share = lines[i].at("share");
+  }
+}
+
 }  // namespace
 
 TEST_CASE("render writes each picture asked for", "[app]") {
@@ -179,11 +188,7 @@ TEST_CASE("progress as JSON is one object a line and ends with what was written"
   REQUIRE(r.exit == 0);
   const std::vector<json> lines = objects(r.out);
   REQUIRE(lines.size() >= 3);
-  double share = 0;
-  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-    CHECK(lines[i].at("share").get<double>() >= share);
-    share = lines[i].at("share");
-  }
+  checkShareRises(lines);
   CHECK(lines.back().at("phase") == "done");
   CHECK(lines.back().at("end") == "time is up");
   CHECK(lines.back().at("files") == json::array({png}));
@@ -224,12 +229,8 @@ TEST_CASE("--noise: --spp and --time end it too, and progress tells how much is 
   REQUIRE(r.exit == 0);
   const std::vector<json> lines = objects(r.out);
   REQUIRE(lines.size() >= 3);
-  double share = 0;
-  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-    CHECK(lines[i].at("share").get<double>() >= share);
-    CHECK(lines[i].at("quiet") <= 1);
-    share = lines[i].at("share");
-  }
+  checkShareRises(lines);
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) CHECK(lines[i].at("quiet") <= 1);
   CHECK(lines.back().at("end") == "time is up");
 }
 

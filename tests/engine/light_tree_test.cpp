@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "support/catch.h"
-#include "support/differences.h"
+#include "support/lights.h"
 
 namespace vestige::test {
 namespace {
@@ -128,6 +128,27 @@ TEST_CASE("no light that reaches a point is left out", "[lights]") {
   }
 }
 
+TEST_CASE("lights do not say that they reach less far than they do", "[lights]") {
+  Random r(11);
+  for (const LightCase& c : lightCases()) {
+    const LightExtent extent = c.light->extent();
+    if (extent.box.isEmpty()) continue;
+    const LightCluster cluster(extent, 1);
+    int reached = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 from = extent.box.centre() + within(i % 2 ? 4 : 40, r);
+      const auto drawn = c.light->sample(from, r.pair());
+      if (!drawn || isBlack(drawn->radiance)) continue;
+      ++reached;
+      if (!(cluster.importance(from) > 0)) {
+        FAIL(c.name << " at " << from.x << ' ' << from.y << ' ' << from.z);
+      }
+    }
+    INFO(c.name);
+    CHECK(reached > 0);
+  }
+}
+
 TEST_CASE("lights that matter are chosen more often", "[lights]") {
   Random r(6);
   Lamps lamps;
@@ -179,6 +200,7 @@ TEST_CASE("a tree of lights that are hard to tell apart", "[lights]") {
     for (int l = 0; l < 1000; ++l) sum += double(heap.tree.chance(l, at));
     CHECK(sum == Approx(1).margin(1e-3));
     CHECK(heap.tree.choose(at, Real(0.3)));
+    for (const int unknown : {0, 1}) CHECK(heap.tree.chance(unknown, at) > Real(0.05 / 1000));
   }
 
   Lamps away;  // shines the other way: nothing is drawn, and nothing is lost

@@ -48,10 +48,9 @@ struct Interaction {
 };
 
 struct LightChoice {
-  int light;    ///< index into lights()
-  Real chance;  ///< (0,1]
-  Real rest =
-      0;  ///< u, stretched over the choice: [0,1), with as many bits less as chance is small
+  int light;      ///< index into lights()
+  Real chance;    ///< (0,1]
+  Real rest = 0;  ///< u stretched over the choice, [0,1); of few bits where the chance is small
 };
 
 /// A piece of surface with an area of its own: one a triangle, one a face of an analytic shape.
