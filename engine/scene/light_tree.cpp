@@ -131,6 +131,10 @@ void LightTree::build(std::span<const Light* const> lights) {
   outside_.clear(), nodes_.clear(), parents_.clear(), places_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light& light = *lights[i];
+    if (!light.isDrawn()) {
+      places_.push_back({-1, -1}), clusters.emplace_back(LightExtent{}, Real(0));
+      continue;
+    }
     const double power = sane(double(luminance(light.power())));
     const LightExtent extent = light.extent();
     const bool isSomewhere =
@@ -155,6 +159,8 @@ void LightTree::build(std::span<const Light* const> lights) {
     for (const std::int32_t l : inside) places_[std::size_t(l)].entry = int(outside_.size());
   }
   table_.build(powers, counts);
+  only_ = -1;
+  if (inside.size() + outside_.size() == 1) only_ = inside.empty() ? outside_[0] : inside[0];
 }
 
 void LightTree::grow(std::int32_t node, std::span<std::int32_t> lights,
@@ -196,7 +202,7 @@ std::optional<Real> LightTree::firstChance(std::int32_t first, Vec3 at) const no
 
 std::optional<LightChoice> LightTree::choose(Vec3 at, Real u) const noexcept {
   if (table_.isEmpty()) return std::nullopt;
-  if (places_.size() == 1) return LightChoice{0, 1, u};  // most scenes have one
+  if (only_ >= 0) return LightChoice{only_, 1, u};  // most scenes have one
   const LightChoice entry = table_.choose(u);
   if (entry.light < int(outside_.size()))
     return LightChoice{outside_[std::size_t(entry.light)], entry.chance, entry.rest};
@@ -216,7 +222,9 @@ std::optional<LightChoice> LightTree::choose(Vec3 at, Real u) const noexcept {
 }
 
 Real LightTree::chance(int light, Vec3 at) const noexcept {
+  if (light == only_) return 1;
   const Place& place = places_[std::size_t(light)];
+  if (place.entry < 0) return 0;
   Real chance = table_.chance(place.entry);
   for (std::int32_t node = place.node; node > 0; node = parents_[std::size_t(node)]) {
     const std::int32_t first = node - (node % 2 == 1 ? 0 : 1);

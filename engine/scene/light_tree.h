@@ -43,7 +43,7 @@ struct LightCluster {
 };
 
 /// A binary tree over all lights that are somewhere; those that are not (at infinity, or of no
-/// extent) are chosen by power beside it.
+/// extent) are chosen by power beside it. Lights that want no rays drawn towards them have no chance.
 class LightTree {
  public:
   void build(std::span<const Light* const> lights);
@@ -59,7 +59,7 @@ class LightTree {
     std::int32_t child;  ///< the first of two neighbours; below 0: ~light
   };
   struct Place {
-    std::int32_t entry;  ///< of the table
+    std::int32_t entry;  ///< of the table; below 0: never chosen
     std::int32_t node;   ///< its leaf; below 0: none
   };
 
@@ -73,6 +73,7 @@ class LightTree {
   std::vector<Node> nodes_;            ///< [0] is the root; pairs of children side by side
   std::vector<std::int32_t> parents_;  ///< of nodes
   std::vector<Place> places_;          ///< by light
+  std::int32_t only_ = -1;             ///< the one light that is drawn, if there is but one
 };
 
 }  // namespace vestige

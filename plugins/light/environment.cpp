@@ -56,6 +56,7 @@ class Environment final : public Light {
 
   bool isDelta() const noexcept override { return false; }
   bool isInfinite() const noexcept override { return true; }
+  bool isDrawn() const noexcept override { return image_ != nullptr; }
   void setScene(const Bounds& scene) override { disk_ = SceneDisk::around(scene); }
 
   std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override {

@@ -89,7 +89,8 @@ class SceneView {
   virtual std::span<const Light* const> lights() const noexcept = 0;
   /// Chooses among them by power: for what starts at a light.
   virtual std::optional<LightChoice> chooseLight(Real u) const noexcept = 0;
-  /// ... by what is likely to arrive at a point. Nullopt: nothing does from where u points.
+  /// ... by what is likely to arrive at a point. Nullopt: nothing does from where u points. Lights
+  /// that are not drawn have no chance.
   virtual std::optional<LightChoice> chooseLight(Vec3 at, Real u) const noexcept = 0;
   /// Of that choice, [0,1].
   virtual Real lightChance(int light, Vec3 at) const noexcept = 0;

@@ -81,6 +81,11 @@ class Light {
   /// Lights at infinity are asked for rays that leave the scene.
   virtual bool isInfinite() const noexcept { return false; }
 
+  /// Whether rays are drawn towards it (next-event estimation). False: it is left to the rays that
+  /// scattering draws, which find it as well: light that comes evenly from all around. Not for
+  /// delta lights.
+  virtual bool isDrawn() const noexcept { return true; }
+
   /// The extent of the finite part of the scene, told once before rendering. [main thread]
   virtual void setScene(const Bounds&) {}
 
