@@ -67,7 +67,7 @@ std::optional<CameraRay> cameraRay(const Camera& camera, const PixelFilterSample
   const Real w = Real(width), h = Real(height);
   const CameraNumbers numbers{
       {(Real(x) + Real(0.5) + dx.offset) / w, (Real(y) + Real(0.5) + dy.offset) / h},
-      sampler.pair(dimension::kLens),
+      camera.variables() > 2 ? sampler.pair(dimension::kLens) : Vec2{},
       w / h};
   const std::optional<CameraSample> ray = camera.sample(numbers);
   if (!ray) return std::nullopt;

@@ -216,8 +216,9 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
     m.brdf = nullptr;
     return m;
   }
-  m.normalMap = int(rows.size()) - 2, m.opacity = m.normalMap + 1;
-  for (int i = 0; i < int(rows.size()); ++i) {
+  m.inputs = int(rows.size());
+  m.normalMap = m.inputs - 2, m.opacity = m.normalMap + 1;
+  for (int i = 0; i < m.inputs; ++i) {
     const Value* given = block.find(rows[i].name);
     if (!given || given->kind != Value::Kind::block) {
       m.constants[i] = constantInput(rows[i], given ? *given : rows[i].initial);

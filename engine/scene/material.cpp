@@ -76,15 +76,14 @@ Real Material::opacityAt(const SurfacePoint& at) const noexcept {
 Inputs Material::evaluate(const SurfacePoint& at, const Footprint& footprint,
                           InputBuffer& buffer) const noexcept {
   if (textured.empty()) return Inputs(constants.data());
-  buffer = constants;
+  std::copy_n(constants.begin(), inputs, buffer.begin());
   for (const TexturedInput& t : textured)
     buffer[t.input] = toInput(t.pigment.eval(at, t.isFiltered ? footprint : Footprint{}), t);
   return Inputs(buffer.data());
 }
 
-Interaction interact(const Material& material, const Surface& surface, Vec3 toPrev,
-                     const Footprint& footprint, InputBuffer& buffer) noexcept {
-  Interaction x;
+void interact(const Material& material, const Surface& surface, Vec3 toPrev,
+              const Footprint& footprint, InputBuffer& buffer, Interaction& x) noexcept {
   x.toPrev = toPrev;
   x.brdf = material.brdf.get();
   x.point.inputs = material.evaluate(surface, footprint, buffer);
@@ -98,9 +97,9 @@ Interaction interact(const Material& material, const Surface& surface, Vec3 toPr
   x.frame = Frame::along(bent(behind ? -normal : normal, toPrev), surface.dPdu);
   x.point.toPrev = x.frame.toLocal(toPrev);
   x.point.inside = behind;
-  if (material.opacity >= 0)
-    x.opacity = std::clamp(x.point.inputs.real(material.opacity), Real(0), Real(1));
-  return x;
+  x.opacity = material.opacity < 0
+                  ? 1
+                  : std::clamp(x.point.inputs.real(material.opacity), Real(0), Real(1));
 }
 
 }  // namespace vestige

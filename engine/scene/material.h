@@ -29,6 +29,7 @@ struct Material {
   };
 
   std::shared_ptr<const Brdf> brdf;  ///< null: reflects nothing
+  int inputs = 0;                    ///< how many there are
   InputBuffer constants{};           ///< of every input; textured ones hold their mean
   std::vector<TexturedInput> textured;
   int normalMap = -1, opacity = -1;  ///< indices of these inputs
@@ -46,7 +47,7 @@ struct Material {
 };
 
 /// Everything a BRDF needs at a surface, seen along toPrev [SDK: brdf.h says which way it faces].
-Interaction interact(const Material& material, const Surface& surface, Vec3 toPrev,
-                     const Footprint& footprint, InputBuffer& buffer) noexcept;
+void interact(const Material& material, const Surface& surface, Vec3 toPrev,
+              const Footprint& footprint, InputBuffer& buffer, Interaction& result) noexcept;
 
 }  // namespace vestige

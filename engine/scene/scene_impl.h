@@ -34,13 +34,15 @@ struct Scene::Impl final : SceneView {
   /// After everything was added: builds the tree and the table of lights.
   void commit();
 
-  std::optional<Surface> intersect(const Ray& ray) const noexcept override {
-    return world.intersect(ray);
+  using SceneView::intersect;
+  bool intersect(const Ray& ray, Surface& surface) const noexcept override {
+    return world.intersect(ray, surface);
   }
   Real transmittance(const Ray& ray) const noexcept override;
-  Interaction shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
-                    InputBuffer& buffer) const noexcept override {
-    return interact(material(surface), surface, toPrev, footprint, buffer);
+  using SceneView::shade;
+  void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint, InputBuffer& buffer,
+             Interaction& result) const noexcept override {
+    interact(material(surface), surface, toPrev, footprint, buffer, result);
   }
   Real opacity(const Surface& s) const noexcept override { return material(s).opacityAt(s); }
   Rgb emitted(const Surface& surface, Vec3 from) const noexcept override;

@@ -73,7 +73,7 @@ Bounds boundsOfFace(const Item& item, int face) noexcept {
 
 Patch trianglePatch(const Item& item, int triangle) noexcept {
   const Triangles::Edges e = item.triangles->edges(std::uint32_t(triangle));
-  Patch p{item.placement.object, e.area, {}, e.normal, true};
+  Patch p{item.placement.object, item.triangles->area(std::uint32_t(triangle)), {}, e.normal, true};
   Vec3 corners[3] = {e.a, e.a + e.ab, e.a + e.ac};
   if (!item.baked) {
     for (Vec3& c : corners) c = item.place.toWorld.point(c);

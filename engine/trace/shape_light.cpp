@@ -109,7 +109,7 @@ class MeshLight final : public SurfaceLight {
     sums_.reserve(triangles_.size());
     double sum = 0;
     for (std::uint32_t k = 0; k < triangles_.size(); ++k)
-      sums_.push_back(sum += double(triangles_.edges(k).area));
+      sums_.push_back(sum += double(triangles_.area(k)));
   }
 
  private:
@@ -124,19 +124,16 @@ class MeshLight final : public SurfaceLight {
     const Triangles::Edges e = triangles_.edges(k);
     const Real stretch = Real(total / width);
     const auto column = [&](Vec2 d) { return d.x * e.ab + d.y * e.ac; };
-    return AreaSample{triangles_.at(k, t.b, e),
-                      {stretch * column(t.du[0]), column(t.du[1])},
-                      {},
-                      Real(1 / total)};
+    AreaSample s{{}, {stretch * column(t.du[0]), column(t.du[1])}, {}, Real(1 / total)};
+    triangles_.at(k, t.b, e, s.point);
+    return s;
   }
   Real areaPdf(Vec3) const noexcept override { return sums_.empty() ? 0 : Real(1 / sums_.back()); }
   Real area() const noexcept override { return sums_.empty() ? 0 : Real(sums_.back()); }
   LightExtent oneSided() const noexcept override {
     Vec3 sum;
-    for (std::uint32_t k = 0; k < triangles_.size(); ++k) {
-      const Triangles::Edges e = triangles_.edges(k);
-      sum += e.area * e.normal;
-    }
+    for (std::uint32_t k = 0; k < triangles_.size(); ++k)
+      sum += triangles_.area(k) * triangles_.edges(k).normal;
     if (!(lengthSquared(sum) > 0)) return {triangles_.bounds()};
     LightExtent result{triangles_.bounds(), normalize(sum), 0};
     Real least = 1;

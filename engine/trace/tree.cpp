@@ -19,7 +19,7 @@ struct Group {
 /// Travels with a ray through Embree; the context comes first so that one address serves both.
 struct Query {
   embree::Context context;
-  const Ray* ray;     ///< in full precision, for analytic shapes
+  const Ray* ray = nullptr;  ///< in full precision, for analytic shapes
   int item = -1;      ///< of the nearest analytic hit so far
   ShapeHit hit = {};  ///< where
 };
@@ -71,14 +71,12 @@ unsigned maskOf(const Item& item) noexcept {
   return item.placement.translucent ? kTranslucent : kOpaque;
 }
 
-RTCRay embreeRay(const Ray& r, unsigned mask) noexcept {
-  RTCRay ray{};
+void fillRay(RTCRay& ray, const Ray& r, unsigned mask) noexcept {
   ray.org_x = float(r.origin.x), ray.org_y = float(r.origin.y), ray.org_z = float(r.origin.z);
   ray.dir_x = float(r.direction.x), ray.dir_y = float(r.direction.y);
   ray.dir_z = float(r.direction.z);
   ray.tnear = float(r.tMin), ray.tfar = float(r.tMax);
-  ray.mask = mask;
-  return ray;
+  ray.mask = mask, ray.time = 0, ray.id = ray.flags = 0;
 }
 
 }  // namespace
@@ -185,17 +183,19 @@ void Tree::build(const std::vector<Item>& items) {
   check(t.device.get(), "building the tree");
 }
 
-std::optional<TreeHit> Tree::closest(const Ray& ray, unsigned mask) const noexcept {
+bool Tree::closest(const Ray& ray, unsigned mask, TreeHit& hit) const noexcept {
   const Impl& t = *impl_;
   Ray world = ray;
-  Query query{{}, &world};
+  Query query;
+  query.ray = &world;
   bool found = false;
   for (const int k : t.unbounded) {
     if (!(maskOf((*t.items)[k]) & mask)) continue;
-    const auto hit = (*t.items)[k].placement.shape->intersect((*t.items)[k].place.object(world));
-    if (hit) found = true, query.item = k, query.hit = *hit, world.tMax = hit->t;
+    const auto met = (*t.items)[k].placement.shape->intersect((*t.items)[k].place.object(world));
+    if (met) found = true, query.item = k, query.hit = *met, world.tMax = met->t;
   }
-  RTCRayHit rayHit{embreeRay(world, mask), {}};
+  RTCRayHit rayHit;
+  fillRay(rayHit.ray, world, mask);
   rayHit.hit.geomID = rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embree::initialise(query.context);
   embree::intersect(t.scene.get(), rayHit, query.context);
@@ -203,12 +203,15 @@ std::optional<TreeHit> Tree::closest(const Ray& ray, unsigned mask) const noexce
   if (h.geomID != RTC_INVALID_GEOMETRY_ID) {
     const bool instance = h.instID[0] != RTC_INVALID_GEOMETRY_ID;
     const int item = t.itemOfGeometry[instance ? h.instID[0] : h.geomID];
-    if (item >= 0)
-      return TreeHit{item, int(h.primID), Real(rayHit.ray.tfar), {Real(h.u), Real(h.v)}};
+    if (item >= 0) {
+      hit.item = item, hit.primitive = int(h.primID), hit.t = Real(rayHit.ray.tfar);
+      hit.b = {Real(h.u), Real(h.v)};
+      return true;
+    }
     found = true;
   }
-  if (!found) return std::nullopt;
-  return TreeHit{query.item, query.hit.part, query.hit.t, {}};
+  if (found) hit.item = query.item, hit.primitive = query.hit.part, hit.t = query.hit.t;
+  return found;
 }
 
 bool Tree::occluded(const Ray& ray, unsigned mask) const noexcept {
@@ -218,9 +221,11 @@ bool Tree::occluded(const Ray& ray, unsigned mask) const noexcept {
     if ((maskOf(item) & mask) && item.placement.shape->intersect(item.place.object(ray)))
       return true;
   }
-  Query query{{}, &ray};
+  Query query;
+  query.ray = &ray;
   embree::initialise(query.context);
-  RTCRay r = embreeRay(ray, mask);
+  RTCRay r;
+  fillRay(r, ray, mask);
   embree::occluded(t.scene.get(), r, query.context);
   return r.tfar < 0;
 }

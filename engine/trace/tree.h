@@ -28,7 +28,7 @@ struct TreeHit {
   int item;
   int primitive;  ///< triangle, or part of an analytic shape
   Real t;         ///< lengths of ray.direction
-  Vec2 b;         ///< barycentric, triangles only
+  Vec2 b{};       ///< barycentric, triangles only
 };
 
 class Tree {
@@ -39,7 +39,8 @@ class Tree {
   /// `items` stay where they are as long as the tree lives. Throws where Embree fails.
   void build(const std::vector<Item>& items);
 
-  std::optional<TreeHit> closest(const Ray& ray, unsigned mask) const noexcept;
+  /// False: the ray meets nothing.
+  bool closest(const Ray& ray, unsigned mask, TreeHit& hit) const noexcept;
   bool occluded(const Ray& ray, unsigned mask) const noexcept;
 
  private:

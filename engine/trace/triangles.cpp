@@ -21,6 +21,10 @@ Exact product(Exact a, Exact b) noexcept {
 }
 double scalar(Exact a, Exact b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
 double norm(Exact a) noexcept { return std::sqrt(scalar(a, a)); }
+/// Normal of a triangle, twice its area long.
+Exact across(const std::vector<Vec3>& p, const std::array<std::uint32_t, 3>& c) noexcept {
+  return product(difference(p[c[1]], p[c[0]]), difference(p[c[2]], p[c[0]]));
+}
 Vec3 rounded(Exact a) noexcept { return {Real(a.x), Real(a.y), Real(a.z)}; }
 
 }  // namespace
@@ -38,6 +42,12 @@ Triangles::Triangles(const TriangleMesh& mesh, const Affine& toSpace)
   for (const auto& corners : mesh.triangles)
     if (isSound(corners)) triangles_.push_back(corners);
   dropped_ = mesh.triangles.size() - triangles_.size();
+  faces_.reserve(triangles_.size());
+  for (std::uint32_t k = 0; k < size(); ++k) {
+    const Exact n = across(positions_, triangles_[k]);
+    const double s = double(side_) / norm(n);
+    faces_.push_back(rounded({s * n.x, s * n.y, s * n.z}));
+  }
 }
 
 bool Triangles::isSound(const std::array<std::uint32_t, 3>& corners) const noexcept {
@@ -62,16 +72,16 @@ Bounds Triangles::bounds() const noexcept {
 Triangles::Edges Triangles::edges(std::uint32_t triangle) const noexcept {
   const auto& c = triangles_[triangle];
   const Vec3 a = positions_[c[0]];
-  const Exact ab = difference(positions_[c[1]], a), ac = difference(positions_[c[2]], a);
-  const Exact n = product(ab, ac);
-  const double l = norm(n), s = double(side_) / l;
-  return {a, rounded(ab), rounded(ac), rounded({s * n.x, s * n.y, s * n.z}), Real(l / 2)};
+  return {a, positions_[c[1]] - a, positions_[c[2]] - a, faces_[triangle]};
 }
 
-SurfacePoint Triangles::at(std::uint32_t triangle, Vec2 b, const Edges& e) const noexcept {
+Real Triangles::area(std::uint32_t triangle) const noexcept {
+  return Real(norm(across(positions_, triangles_[triangle])) / 2);
+}
+
+void Triangles::at(std::uint32_t triangle, Vec2 b, const Edges& e, SurfacePoint& s) const noexcept {
   const auto& c = triangles_[triangle];
   const Vec3 p[3] = {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
-  SurfacePoint s;
   // In double and rounded once: so the point is off the plane by its own rounding only, however
   // large the triangle.
   for (int k = 0; k < 3; ++k)
@@ -79,7 +89,6 @@ SurfacePoint Triangles::at(std::uint32_t triangle, Vec2 b, const Edges& e) const
                          b.y * (double(p[2][k]) - p[0][k]));
   s.geometricNormal = e.normal;
   shade(s, c, b, e);
-  return s;
 }
 
 void Triangles::shade(SurfacePoint& s, const std::array<std::uint32_t, 3>& c, Vec2 b,

@@ -19,13 +19,14 @@ class Triangles {
   struct Edges {
     Vec3 a, ab, ac;
     Vec3 normal;  ///< unit, on the side of cross(ab, ac) in the mesh's own space
-    Real area;
   };
   Edges edges(std::uint32_t triangle) const noexcept;
 
-  /// The point with barycentric coordinates b of the second and third corner; `edges` are those of
-  /// the triangle.
-  SurfacePoint at(std::uint32_t triangle, Vec2 b, const Edges& edges) const noexcept;
+  Real area(std::uint32_t triangle) const noexcept;
+
+  /// Fills in the point with barycentric coordinates b of the second and third corner; `edges` are
+  /// those of the triangle.
+  void at(std::uint32_t triangle, Vec2 b, const Edges& edges, SurfacePoint& s) const noexcept;
 
   /// Where a ray in this space meets the triangle's plane, in full precision.
   struct Meeting {
@@ -43,6 +44,7 @@ class Triangles {
   std::vector<Vec3> positions_;
   std::vector<Vec3> normals_;  ///< carried along but not unit, so that blending them commutes
   std::vector<std::array<std::uint32_t, 3>> triangles_;
+  std::vector<Vec3> faces_;  ///< Edges::normal
   Real side_ = 1;  ///< -1 where toSpace mirrors
   std::size_t dropped_ = 0;
 };

@@ -56,9 +56,9 @@ struct World::Impl {
   bool translucent = false;
 
   void prepareItems();
-  Surface surface(const Ray& ray, TreeHit hit) const noexcept;
+  void fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept;
   void fillTriangle(Surface& s, const Item& item, const Ray& ray, TreeHit hit) const noexcept;
-  void fillShape(Surface& s, const Item& item, const Ray& ray, TreeHit hit) const noexcept;
+  void fillShape(Surface& s, const Item& item, const Ray& ray, const TreeHit& hit) const noexcept;
 };
 
 void World::Impl::prepareItems() {
@@ -97,15 +97,15 @@ void World::Impl::fillTriangle(Surface& s, const Item& item, const Ray& ray,
   const Vec2 b = clampBarycentric(hit.b);
   const auto triangle = std::uint32_t(hit.primitive);
   const Triangles::Edges edges = item.triangles->edges(triangle);
-  const SurfacePoint local = item.triangles->at(triangle, b, edges);
-  static_cast<SurfacePoint&>(s) = item.baked ? local : item.place.world(local);
+  item.triangles->at(triangle, b, edges, s);
+  if (!item.baked) static_cast<SurfacePoint&>(s) = item.place.world(s);
   s.distance = hit.t;
   s.patchUv = b;
   s.offset = triangleOffset(item, s, edges);
 }
 
 void World::Impl::fillShape(Surface& s, const Item& item, const Ray& ray,
-                            TreeHit hit) const noexcept {
+                            const TreeHit& hit) const noexcept {
   const Vec3 near = item.place.object(ray).at(hit.t);
   const SurfacePoint local = item.placement.shape->surface(near, hit.primitive);
   static_cast<SurfacePoint&>(s) = item.place.world(local);
@@ -114,9 +114,8 @@ void World::Impl::fillShape(Surface& s, const Item& item, const Ray& ray,
   s.offset = shapeOffset(item, local.position, s.position);
 }
 
-Surface World::Impl::surface(const Ray& ray, TreeHit hit) const noexcept {
+void World::Impl::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept {
   const Item& item = items[hit.item];
-  Surface s;
   if (item.triangles)
     fillTriangle(s, item, ray, hit);
   else
@@ -126,7 +125,6 @@ Surface World::Impl::surface(const Ray& ray, TreeHit hit) const noexcept {
   s.closed = item.placement.closed;
   s.primitive = hit.primitive;
   s.patch = patches.index(hit.item, hit.primitive);
-  return s;
 }
 
 World::World() : impl_(std::make_unique<Impl>()) {}
@@ -153,11 +151,11 @@ Real World::patchArea(int patch, Vec2 low, Vec2 high) const noexcept {
   return impl_->patches.area(patch, low, high);
 }
 
-std::optional<Surface> World::intersect(const Ray& ray) const noexcept {
-  if (!impl_->tree) return std::nullopt;
-  const std::optional<TreeHit> hit = impl_->tree->closest(ray, kEverything);
-  if (!hit) return std::nullopt;
-  return impl_->surface(ray, *hit);
+bool World::intersect(const Ray& ray, Surface& surface) const noexcept {
+  TreeHit hit;
+  if (!impl_->tree || !impl_->tree->closest(ray, kEverything, hit)) return false;
+  impl_->fill(surface, ray, hit);
+  return true;
 }
 
 Real World::transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept {
@@ -167,13 +165,15 @@ Real World::transmittance(const Ray& ray, Opacity opacity, const void* context) 
   Real left = 1;
   Ray rest = ray;
   for (int layer = 0;; ++layer) {
-    const std::optional<TreeHit> hit = impl_->tree->closest(rest, kTranslucent);
-    if (!hit) return left;
+    TreeHit hit;
+    if (!impl_->tree->closest(rest, kTranslucent, hit)) return left;
     if (layer == kMostLayers) return 0;
-    left *= 1 - std::clamp(opacity(context, impl_->surface(ray, *hit)), Real(0), Real(1));
+    Surface surface;
+    impl_->fill(surface, ray, hit);
+    left *= 1 - std::clamp(opacity(context, surface), Real(0), Real(1));
     if (!(left > 0)) return 0;
     // The same ray meets the same surface at the same t again: just past it.
-    rest.tMin = hit->t + 4 * kFloat * std::abs(hit->t) + std::numeric_limits<float>::min();
+    rest.tMin = hit.t + 4 * kFloat * std::abs(hit.t) + std::numeric_limits<float>::min();
   }
 }
 

@@ -36,8 +36,13 @@ class World {
   void commit();
   std::size_t dropped() const noexcept;
 
-  /// First surface along the ray.
-  std::optional<Surface> intersect(const Ray& ray) const noexcept;
+  /// First surface along the ray; false: none.
+  bool intersect(const Ray& ray, Surface& surface) const noexcept;
+  std::optional<Surface> intersect(const Ray& ray) const noexcept {
+    std::optional<Surface> result(std::in_place);
+    if (!intersect(ray, *result)) result.reset();
+    return result;
+  }
 
   /// Product of 1 - opacity(surface) over the surfaces in (tMin, tMax); 0 at the first opaque one
   /// and behind more than 64 layers.

@@ -29,7 +29,7 @@ struct Split {
     columns = n / rows;
   }
   Strata strata() const noexcept {
-    if (columns == 0) return {std::sqrt(Real(count)), std::sqrt(Real(count))};
+    if (columns == 0) return squareStrata(count);
     return {Real(columns), Real(rows)};
   }
   Vec2 pair(const Sampler& s, std::uint32_t dim, std::uint32_t index) const noexcept {
@@ -106,9 +106,11 @@ class Distributed final : public Integrator {
       sum += metLight(c.scene, *hit, node.drawn);
       InputBuffer buffer;
       const Vec3 toPrev = -node.ray.direction;
-      const Interaction x = node.edge > 1 && node.edge == depth_
-                                ? lastSurface(c.scene, *hit, toPrev)
-                                : c.scene.shade(*hit, toPrev, regionAt(c.scene, *hit, f), buffer);
+      Interaction x;
+      if (node.edge > 1 && node.edge == depth_)
+        lastSurface(c.scene, *hit, toPrev, x);
+      else
+        c.scene.shade(*hit, toPrev, regionAt(c.scene, *hit, f), buffer, x);
       if (node.edge == 1 && layer == 0 && c.aovs) writeAovs(*c.aovs, *hit, x);
       if (stays(c, node, x, layer)) return sum + reflected(c, node, *hit, x, size);
       node.report.end(*hit, x.toPrev, grey(1), "pass", f);

@@ -8,6 +8,9 @@
 #include <vestige/path_report.h>
 #include <vestige/plugin.h>
 
+#include <optional>
+#include <utility>
+
 namespace vestige {
 namespace {
 
@@ -18,10 +21,16 @@ constexpr Real kMaxSurvival = Real(0.95);
 /// Passing through this many layers without scattering ends a path, as it blocks a shadow ray.
 constexpr int kMaxLayers = 64;
 
+constexpr int kMaxSplit = 256;
+
 /// A path under way.
 struct Path {
   Ray ray;
   DrawnRay drawn;
+  std::uint32_t index = 0;  ///< of its numbers: the sample's; behind the split sample * rays + ray
+  int edge = 1;             ///< under way, from the camera
+  int rays = 1;             ///< into which it is still to split
+  bool isTold = true;       ///< to AOVs and reports: of the rays of a split the first is
   Rgb throughput{1, 1, 1};
   Rgb flux{1, 1, 1};                     ///< throughput without eta^2: what roulette decides by
   PathFootprint<>* footprint = nullptr;  ///< null: carries none
@@ -33,9 +42,16 @@ struct Path {
   }
 };
 
+/// Where it came to.
+struct Vertex {
+  Surface s;
+  Interaction x;
+  InputBuffer inputs;
+};
+
 class PathIntegrator final : public Integrator {
  public:
-  enum Param { kSamples, kDepth, kFootprint, kClamp };
+  enum Param { kSamples, kSplit, kDepth, kFootprint, kClamp };
 
   static Schema schema() {
     return {.kind = "integrator",
@@ -43,6 +59,10 @@ class PathIntegrator final : public Integrator {
             .summary = "path tracing with next-event estimation and multiple importance sampling",
             .params = {
                 integer("samples", 16).range(1, 1 << 24).doc("paths a pixel"),
+                integer("split", 1)
+                    .range(1, kMaxSplit)
+                    .doc("rays from where a path first scatters: what it sees directly is quiet "
+                         "long before what is lit by others"),
                 integer("depth", 16)
                     .range(1, 4096)
                     .doc("longest path in edges from the camera: 1 sees emitters, 2 direct light"),
@@ -58,6 +78,7 @@ class PathIntegrator final : public Integrator {
 
   explicit PathIntegrator(const Values& v)
       : samples_(int(v.integer(kSamples))),
+        split_(int(v.integer(kSplit))),
         depth_(int(v.integer(kDepth))),
         footprint_(footprintSettings(v.block(kFootprint), Bound::global)),
         clamp_(v.has(kClamp) ? v.real(kClamp) : kInfinity) {}
@@ -65,7 +86,11 @@ class PathIntegrator final : public Integrator {
   int samples() const noexcept override { return samples_; }
 
   Rgb estimate(PathContext& context) const noexcept override {
-    Path path{.ray = context.ray, .drawn = {context.ray.origin}, .report = PathReport(context)};
+    Path path{.ray = context.ray,
+              .drawn = {context.ray.origin},
+              .index = context.sampler.index(),
+              .rays = split_,
+              .report = PathReport(context)};
     if (!carriesFootprint(context, footprint_)) return trace(context, path);
     PathFootprint<> footprint;
     footprint.begin(context, footprint_);
@@ -74,57 +99,74 @@ class PathIntegrator final : public Integrator {
   }
 
  private:
-  Rgb trace(PathContext& context, Path& path) const noexcept {
+  Rgb trace(PathContext& c, Path& path) const noexcept {
     Rgb radiance;
-    for (int edge = 1; edge <= depth_; ++edge) {
-      InputBuffer buffer;
-      Interaction x;
-      const std::optional<Surface> hit = nextSurface(context, path, edge, buffer, x, radiance);
-      if (!hit) break;
-      if (edge == 1 && context.aovs) writeAovs(*context.aovs, *hit, x);
-      if (edge == depth_) {
-        path.report.end(*hit, x.toPrev, path.throughput, "end", path.footprint);
+    Vertex v;
+    for (; path.edge <= depth_ && next(c, path, v, radiance); ++path.edge) {
+      if (path.edge == 1 && c.aovs) writeAovs(*c.aovs, v.s, v.x);
+      if (path.edge == depth_) {
+        path.report.end(v.s, v.x.toPrev, path.throughput, "end", path.footprint);
         break;
       }
-      radiance += clamped(context, edge + 1,
-                          path.throughput * directLight(context, *hit, x, std::uint32_t(edge - 1),
-                                                        context.sampler.index()));
-      if (!scatter(context, path, *hit, x, edge)) break;
+      const Rgb direct = directLight(c, v.s, v.x, std::uint32_t(path.edge - 1), path.index, 1,
+                                     Real(path.rays));
+      radiance += clamped(c, path.edge + 1, path.throughput * direct);
+      if (path.rays > 1) return radiance + split(c, path, v);
+      if (!scatter(c, path, v)) break;
     }
     return radiance;
   }
 
-  /// Follows the ray to the surface where it scatters; adds what shines on the way. nullopt: it
-  /// left the scene.
-  std::optional<Surface> nextSurface(PathContext& c, Path& path, int edge, InputBuffer& buffer,
-                                     Interaction& x, Rgb& radiance) const noexcept {
+  /// The mean of what comes along several rays from here.
+  Rgb split(PathContext& c, const Path& path, const Vertex& v) const noexcept {
+    Rgb sum;
+    for (int i = 0; i < path.rays; ++i) {
+      Path ray = path;
+      ray.index = path.index * std::uint32_t(path.rays) + std::uint32_t(i);
+      std::optional<PathFootprint<>> footprint;
+      if (path.footprint) ray.footprint = &footprint.emplace(*path.footprint);
+      if (i > 0) ray.isTold = false, ray.report = PathReport();
+      const bool goesOn = scatter(c, ray, v);
+      // A mirror leaves no choice: one ray stands for all, and splits where it comes to.
+      const bool isOnly = i == 0 && ray.rays > 1;
+      if (isOnly) ray.index = path.index;
+      ++ray.edge;
+      if (goesOn) sum += trace(c, ray);
+      if (isOnly) return sum;
+    }
+    return sum / Real(path.rays);
+  }
+
+  /// Follows the ray to the surface where it scatters; adds what shines on the way. False: it left
+  /// the scene.
+  bool next(PathContext& c, Path& path, Vertex& v, Rgb& radiance) const noexcept {
     for (int layer = 0; layer < kMaxLayers; ++layer) {
       ++c.counters.rays;
-      const std::optional<Surface> hit = c.scene.intersect(path.ray);
-      if (!hit) {
-        radiance +=
-            clamped(c, edge,
-                    path.throughput * filteredBackground(c.scene, path.drawn, path.ray.direction,
-                                                         path.footprint));
+      if (!c.scene.intersect(path.ray, v.s)) {
+        radiance += clamped(c, path.edge,
+                            path.throughput * filteredBackground(c.scene, path.drawn,
+                                                                 path.ray.direction,
+                                                                 path.footprint));
         path.report.gone("escape", path.ray.direction, path.throughput);
-        return std::nullopt;
+        return false;
       }
-      if (path.footprint) path.footprint->arrive(*hit, path.sceneSize);
-      radiance += clamped(c, edge, path.throughput * metLight(c.scene, *hit, path.drawn));
+      if (path.footprint) path.footprint->arrive(v.s, path.sceneSize);
+      radiance += clamped(c, path.edge, path.throughput * metLight(c.scene, v.s, path.drawn));
       const Vec3 toPrev = -path.ray.direction;
-      x = edge > 1 && edge == depth_
-              ? lastSurface(c.scene, *hit, toPrev)
-              : c.scene.shade(*hit, toPrev, regionAt(c.scene, *hit, path.footprint), buffer);
-      const std::uint32_t dim = dimension::vertex(edge - 1) + dimension::kOpacity;
+      if (path.edge > 1 && path.edge == depth_)
+        lastSurface(c.scene, v.s, toPrev, v.x);
+      else
+        c.scene.shade(v.s, toPrev, regionAt(c.scene, v.s, path.footprint), v.inputs, v.x);
+      if (v.x.opacity >= 1) return true;
+      const std::uint32_t dim = dimension::vertex(path.edge - 1) + dimension::kOpacity;
       // Layers beyond the first have numbers of their own, far from those of any vertex.
-      if (x.opacity >= 1) return hit;
-      const bool stays = c.sampler.number(dim + 0x10000u * layer) < x.opacity;
-      path.chance(stays ? x.opacity : 1 - x.opacity);
-      if (stays) return hit;
-      path.report.end(*hit, x.toPrev, path.throughput, "pass", path.footprint);
-      path.ray = spawnRay(*hit, path.ray.direction);
+      const bool stays = c.sampler.number(dim + 0x10000u * layer, path.index) < v.x.opacity;
+      path.chance(stays ? v.x.opacity : 1 - v.x.opacity);
+      if (stays) return true;
+      path.report.end(v.s, toPrev, path.throughput, "pass", path.footprint);
+      path.ray = spawnRay(v.s, path.ray.direction);
     }
-    return std::nullopt;
+    return false;
   }
 
   /// What light brings that came along so many edges, cut down to the scene's `clamp`.
@@ -134,31 +176,34 @@ class PathIntegrator final : public Integrator {
     return clamp_ / maxComponent(light) * light;
   }
 
-  /// Draws the next ray; false where the path ends.
-  bool scatter(PathContext& c, Path& path, const Surface& s, const Interaction& x,
-               int edge) const noexcept {
-    const std::uint32_t dim = dimension::vertex(edge - 1);
-    const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe),
-                                 c.sampler.pair(dim + dimension::kDirection)};
-    const std::optional<Scatter> next = drawScatter(x, numbers);
-    if (edge == 1 && c.aovs && next) c.aovs->albedo = next->local.weight;
-    if (!next) {
-      path.report.end(s, x.toPrev, path.throughput, "absorbed", path.footprint);
+  /// Draws the next ray, one of the split's unless there is no choice. False where the path ends.
+  bool scatter(PathContext& c, Path& path, const Vertex& v) const noexcept {
+    const std::uint32_t dim = dimension::vertex(path.edge - 1);
+    const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe, path.index),
+                                 c.sampler.pair(dim + dimension::kDirection, path.index)};
+    const std::optional<Scatter> drawn = drawScatter(v.x, numbers);
+    const bool isOnly = drawn && drawn->local.specular && drawn->local.lobeChance == 1;
+    const int siblings = isOnly ? 1 : std::exchange(path.rays, 1);
+    if (path.edge == 1 && path.isTold && c.aovs && drawn) c.aovs->albedo = drawn->local.weight;
+    if (!drawn) {
+      path.report.end(v.s, v.x.toPrev, path.throughput, "absorbed", path.footprint);
       return false;
     }
-    path.report.scatter(s, x.toPrev, path.throughput, *next, path.footprint);
-    path.throughput *= next->weight;
-    path.flux *= next->local.weight;
-    path.drawn = {s.position, next->local.specular ? kInfinity : next->local.pdf};
-    path.ray = spawnRay(s, next->toNext);
+    path.report.scatter(v.s, v.x.toPrev, path.throughput, *drawn, path.footprint);
+    path.throughput *= drawn->weight;
+    path.flux *= drawn->local.weight;
+    path.drawn.from = v.s.position;
+    path.drawn.density = drawn->local.specular ? kInfinity : Real(siblings) * drawn->local.pdf;
+    path.ray = spawnRay(v.s, drawn->toNext);
     const bool goesOn =
         !isBlack(path.throughput) &&
-        (edge < kRouletteFrom || survives(path, c.sampler.number(dim + dimension::kRoulette)));
-    if (edge + 1 == depth_ && !lastEdgeCarries(c, *next)) path.footprint = nullptr;
+        (path.edge < kRouletteFrom ||
+         survives(path, c.sampler.number(dim + dimension::kRoulette, path.index)));
+    if (path.edge + 1 == depth_ && !lastEdgeCarries(c, *drawn)) path.footprint = nullptr;
     if (path.footprint && (goesOn || path.report.isWaiting()))
-      path.footprint->scatter(s, x, *next, numbers);
+      path.footprint->scatter(v.s, v.x, *drawn, numbers, squareStrata(siblings));
     path.report.left(path.footprint);
-    if (!goesOn) path.report.gone("roulette", next->toNext, path.throughput);
+    if (!goesOn) path.report.gone("roulette", drawn->toNext, path.throughput);
     return goesOn;
   }
 
@@ -173,7 +218,7 @@ class PathIntegrator final : public Integrator {
     return true;
   }
 
-  int samples_, depth_;
+  int samples_, split_, depth_;
   FootprintSettings footprint_;
   Real clamp_;  ///< infinite: none
 };

@@ -60,12 +60,13 @@ class Area final : public Light {
   const TriangleMesh* geometry() const noexcept override { return &mesh_; }
 
   std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override {
-    const Vec3 position = at(u);
-    const Real distance = length(position - from);
-    const LightHit hit = {from, normalize(position - from), distance, position, normal_, u};
-    const Real density = pdf(hit);
-    if (!(density > 0) || !std::isfinite(density)) return std::nullopt;
-    return LightSample{hit, radiance_, density};
+    const Vec3 position = at(u), way = position - from;
+    const Real distance = length(way);
+    std::optional<LightSample> s(std::in_place);
+    s->hit = {from, way / distance, distance, position, normal_, u};
+    s->radiance = radiance_, s->pdf = pdf(s->hit);
+    if (!(s->pdf > 0) || !std::isfinite(s->pdf)) s.reset();
+    return s;
   }
 
   Real pdf(const LightHit& hit) const noexcept override {

@@ -32,6 +32,10 @@ namespace vestige {
 struct Strata {
   Real u = 1, v = 1;
 };
+inline Strata squareStrata(int children) noexcept {
+  const Real side = children > 1 ? std::sqrt(Real(children)) : 1;
+  return {side, side};
+}
 
 /// Lanes: the most numbers that are followed; when the next event would not fit, they are reduced.
 template <int Lanes = 8>

@@ -40,7 +40,7 @@ class Values {
 
 /// One evaluated input: a colour with alpha, or a number in v[0].
 struct InputValue {
-  Real v[4] = {0, 0, 0, 1};
+  Real v[4];
 };
 
 /// More inputs than any BRDF has; the engine's own (normal map, opacity) included.

@@ -67,16 +67,28 @@ class SceneView {
  public:
   virtual ~SceneView() = default;
 
-  /// The first surface along the ray, opaque or not.
-  virtual std::optional<Surface> intersect(const Ray& ray) const noexcept = 0;
+  /// The first surface along the ray, opaque or not. False: none; then `surface` means nothing.
+  /// (Filled in place: to copy what was just written costs more than a matt surface's shading.)
+  virtual bool intersect(const Ray& ray, Surface& surface) const noexcept = 0;
+  std::optional<Surface> intersect(const Ray& ray) const noexcept {
+    std::optional<Surface> result(std::in_place);
+    if (!intersect(ray, *result)) result.reset();
+    return result;
+  }
 
   /// Share of light that gets from a surface along a direction to a distance (or out of the scene):
   /// product of 1 - opacity, 0 behind more than 64 layers.
   virtual Real transmittance(const Ray& ray) const noexcept = 0;
 
   /// Evaluates the material's inputs over the footprint, bends and maps the normal.
-  virtual Interaction shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
-                            InputBuffer& buffer) const noexcept = 0;
+  virtual void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
+                     InputBuffer& buffer, Interaction& result) const noexcept = 0;
+  Interaction shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
+                    InputBuffer& buffer) const noexcept {
+    Interaction result;
+    shade(surface, toPrev, footprint, buffer, result);
+    return result;
+  }
   /// Of all this only the opacity, [0, 1], looked up at a point.
   virtual Real opacity(const Surface& surface) const noexcept = 0;
 
@@ -152,13 +164,18 @@ inline bool sidesAgree(const Interaction& x, Vec3 toNext, Real localZ) noexcept 
   return dot(toNext, x.geometricNormal) * localZ > 0;
 }
 
+/// Of what crosses an interface; flux is not scaled, nor what stays on its side.
+inline Real etaScale(const Interaction& x, Vec3 local, Carries what) noexcept {
+  return what == Carries::radiance && local.z < 0 ? x.brdf->etaScale(x.point, local) : Real(1);
+}
+
 /// f |cos| towards a direction, world; black where the BRDF or the geometry says no.
 inline Rgb evalScatter(const Interaction& x, Vec3 toNext,
                        Carries what = Carries::radiance) noexcept {
   if (!x.brdf) return {};
   const Vec3 local = x.frame.toLocal(toNext);
   if (!sidesAgree(x, toNext, local.z)) return {};
-  const Real eta = what == Carries::radiance ? x.brdf->etaScale(x.point, local) : Real(1);
+  const Real eta = etaScale(x, local, what);
   return std::abs(local.z) * eta * shadingCorrection(x, toNext, what) *
          x.brdf->eval(x.point, local);
 }
@@ -178,7 +195,7 @@ inline std::optional<Scatter> drawScatter(const Interaction& x, ScatterNumbers n
   if (!s) return std::nullopt;
   const Vec3 toNext = normalize(x.frame.toWorld(s->toNext));
   if (!sidesAgree(x, toNext, s->toNext.z)) return std::nullopt;
-  const Real eta = what == Carries::radiance ? x.brdf->etaScale(x.point, s->toNext) : Real(1);
+  const Real eta = etaScale(x, s->toNext, what);
   return Scatter{toNext, eta * shadingCorrection(x, toNext, what) * s->weight, *s};
 }
 
@@ -266,15 +283,14 @@ class Integrator {
   virtual int samples() const noexcept { return 0; }
 };
 
-/// Fills what every integrator has to say about the first surface.
 /// The surface at which a path's last edge ends: nothing scatters there, so nothing but whether the
 /// ray passes through is looked up.
-inline Interaction lastSurface(const SceneView& scene, const Surface& s, Vec3 toPrev) noexcept {
-  Interaction x;
-  x.toPrev = toPrev, x.opacity = scene.opacity(s);
-  return x;
+inline void lastSurface(const SceneView& scene, const Surface& s, Vec3 toPrev,
+                        Interaction& x) noexcept {
+  x.brdf = nullptr, x.toPrev = toPrev, x.opacity = scene.opacity(s);
 }
 
+/// Fills what every integrator has to say about the first surface.
 inline void writeAovs(Aovs& aovs, const Surface& s, const Interaction& x) noexcept {
   aovs.normal = x.frame.n, aovs.depth = s.distance, aovs.position = s.position, aovs.uv = s.uv;
 }

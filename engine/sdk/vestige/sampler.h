@@ -74,18 +74,24 @@ class Sampler {
 
   /// The same with an index of the caller's: child c of a split of n draws index() * n + c.
   Real number(std::uint32_t dim, std::uint32_t index) const noexcept {
-    const std::uint32_t key = detail::mix(key_, dim);
+    const std::uint32_t key = keyOf(dim);
     return detail::unitInterval(
-        detail::reverseBits(detail::owenReversed(shuffled(index, key), detail::mix(key ^ 1))));
+        detail::reverseBits(detail::owenReversed(shuffled(index, key), key * kSeeds[0])));
   }
   Vec2 pair(std::uint32_t dim, std::uint32_t index) const noexcept {
     using namespace detail;
-    const std::uint32_t key = mix(key_, dim), i = shuffled(index, key);
-    return {unitInterval(reverseBits(owenReversed(i, mix(key ^ 1)))),
-            unitInterval(reverseBits(owenReversed(sobol1Reversed(i), mix(key ^ 2))))};
+    const std::uint32_t key = keyOf(dim), i = shuffled(index, key);
+    return {unitInterval(reverseBits(owenReversed(i, key * kSeeds[0]))),
+            unitInterval(reverseBits(owenReversed(sobol1Reversed(i), key * kSeeds[1])))};
   }
 
  private:
+  /// Odd: from a key that is well mixed, seeds that share no pattern.
+  static constexpr std::uint32_t kSeeds[2] = {0x9e3779b9u, 0x846ca68bu};
+
+  std::uint32_t keyOf(std::uint32_t dim) const noexcept {
+    return detail::mix(key_ ^ (dim * 0x9e3779b9u));
+  }
   /// Decorrelates dimensions: an Owen scramble of the index, which keeps every aligned power of two
   /// of indices together.
   static std::uint32_t shuffled(std::uint32_t index, std::uint32_t key) noexcept {
