@@ -43,7 +43,8 @@ struct LightCluster {
 };
 
 /// A binary tree over all lights that are somewhere; those that are not (at infinity, or of no
-/// extent) are chosen by power beside it. Lights that want no rays drawn towards them have no chance.
+/// extent) are chosen by power beside it. Lights that want no rays drawn towards them have no
+/// chance.
 class LightTree {
  public:
   void build(std::span<const Light* const> lights);

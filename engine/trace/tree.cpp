@@ -20,8 +20,8 @@ struct Group {
 struct Query {
   embree::Context context;
   const Ray* ray = nullptr;  ///< in full precision, for analytic shapes
-  int item = -1;      ///< of the nearest analytic hit so far
-  ShapeHit hit = {};  ///< where
+  int item = -1;             ///< of the nearest analytic hit so far
+  ShapeHit hit = {};         ///< where
 };
 
 std::optional<ShapeHit> meet(const Item& item, const Ray& world, float tFar) noexcept {

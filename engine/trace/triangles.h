@@ -45,7 +45,7 @@ class Triangles {
   std::vector<Vec3> normals_;  ///< carried along but not unit, so that blending them commutes
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Vec3> faces_;  ///< Edges::normal
-  Real side_ = 1;  ///< -1 where toSpace mirrors
+  Real side_ = 1;            ///< -1 where toSpace mirrors
   std::size_t dropped_ = 0;
 };
 

@@ -22,6 +22,8 @@ constexpr Real kMaxSurvival = Real(0.95);
 constexpr int kMaxLayers = 64;
 
 constexpr int kMaxSplit = 256;
+/// Of edges, and of scatterings of a kind; roulette ends all paths long before.
+constexpr int kNoLimit = 4096;
 
 /// A path under way.
 struct Path {
@@ -29,8 +31,9 @@ struct Path {
   DrawnRay drawn;
   std::uint32_t index = 0;  ///< of its numbers: the sample's; behind the split sample * rays + ray
   int edge = 1;             ///< under way, from the camera
-  int rays = 1;             ///< into which it is still to split
-  bool isTold = true;       ///< to AOVs and reports: of the rays of a split the first is
+  int rough = 0, specular = 0;  ///< scatterings so far
+  int rays = 1;                 ///< into which it is still to split
+  bool isTold = true;           ///< to AOVs and reports: of the rays of a split the first is
   Rgb throughput{1, 1, 1};
   Rgb flux{1, 1, 1};                     ///< throughput without eta^2: what roulette decides by
   PathFootprint<>* footprint = nullptr;  ///< null: carries none
@@ -51,7 +54,7 @@ struct Vertex {
 
 class PathIntegrator final : public Integrator {
  public:
-  enum Param { kSamples, kSplit, kDepth, kFootprint, kClamp };
+  enum Param { kSamples, kSplit, kDepth, kRoughDepth, kSpecularDepth, kFootprint, kClamp };
 
   static Schema schema() {
     return {.kind = "integrator",
@@ -64,8 +67,15 @@ class PathIntegrator final : public Integrator {
                     .doc("rays from where a path first scatters: what it sees directly is quiet "
                          "long before what is lit by others"),
                 integer("depth", 16)
-                    .range(1, 4096)
+                    .range(1, kNoLimit)
                     .doc("longest path in edges from the camera: 1 sees emitters, 2 direct light"),
+                integer("rough_depth", kNoLimit)
+                    .range(0, kNoLimit)
+                    .doc("most scatterings that are not specular: 0 leaves emitters, 1 direct "
+                         "light, 2 one bounce"),
+                integer("specular_depth", kNoLimit)
+                    .range(0, kNoLimit)
+                    .doc("most mirrors and smooth glass surfaces on the way"),
                 block("footprint", "footprint")
                     .doc("how large a region of a texture a path looks at (safe)"),
                 real("clamp", 0)
@@ -80,6 +90,8 @@ class PathIntegrator final : public Integrator {
       : samples_(int(v.integer(kSamples))),
         split_(int(v.integer(kSplit))),
         depth_(int(v.integer(kDepth))),
+        roughDepth_(int(v.integer(kRoughDepth))),
+        specularDepth_(int(v.integer(kSpecularDepth))),
         footprint_(footprintSettings(v.block(kFootprint), Bound::global)),
         clamp_(v.has(kClamp) ? v.real(kClamp) : kInfinity) {}
 
@@ -108,13 +120,18 @@ class PathIntegrator final : public Integrator {
         path.report.end(v.s, v.x.toPrev, path.throughput, "end", path.footprint);
         break;
       }
-      const Rgb direct = directLight(c, v.s, v.x, std::uint32_t(path.edge - 1), path.index, 1,
-                                     Real(path.rays));
-      radiance += clamped(c, path.edge + 1, path.throughput * direct);
+      if (path.rough < roughDepth_) radiance += direct(c, path, v);
       if (path.rays > 1) return radiance + split(c, path, v);
       if (!scatter(c, path, v)) break;
     }
     return radiance;
+  }
+
+  Rgb direct(PathContext& c, const Path& path, const Vertex& v) const noexcept {
+    const auto vertex = std::uint32_t(path.edge - 1);
+    return clamped(
+        c, path.edge + 1,
+        path.throughput * directLight(c, v.s, v.x, vertex, path.index, 1, Real(path.rays)));
   }
 
   /// The mean of what comes along several rays from here.
@@ -143,10 +160,10 @@ class PathIntegrator final : public Integrator {
     for (int layer = 0; layer < kMaxLayers; ++layer) {
       ++c.counters.rays;
       if (!c.scene.intersect(path.ray, v.s)) {
-        radiance += clamped(c, path.edge,
-                            path.throughput * filteredBackground(c.scene, path.drawn,
-                                                                 path.ray.direction,
-                                                                 path.footprint));
+        radiance +=
+            clamped(c, path.edge,
+                    path.throughput * filteredBackground(c.scene, path.drawn, path.ray.direction,
+                                                         path.footprint));
         path.report.gone("escape", path.ray.direction, path.throughput);
         return false;
       }
@@ -185,7 +202,7 @@ class PathIntegrator final : public Integrator {
     const bool isOnly = drawn && drawn->local.specular && drawn->local.lobeChance == 1;
     const int siblings = isOnly ? 1 : std::exchange(path.rays, 1);
     if (path.edge == 1 && path.isTold && c.aovs && drawn) c.aovs->albedo = drawn->local.weight;
-    if (!drawn) {
+    if (!drawn || isTooMuch(path, drawn->local.specular)) {
       path.report.end(v.s, v.x.toPrev, path.throughput, "absorbed", path.footprint);
       return false;
     }
@@ -195,16 +212,20 @@ class PathIntegrator final : public Integrator {
     path.drawn.from = v.s.position;
     path.drawn.density = drawn->local.specular ? kInfinity : Real(siblings) * drawn->local.pdf;
     path.ray = spawnRay(v.s, drawn->toNext);
-    const bool goesOn =
-        !isBlack(path.throughput) &&
-        (path.edge < kRouletteFrom ||
-         survives(path, c.sampler.number(dim + dimension::kRoulette, path.index)));
+    const bool goesOn = !isBlack(path.throughput) &&
+                        (path.edge < kRouletteFrom ||
+                         survives(path, c.sampler.number(dim + dimension::kRoulette, path.index)));
     if (path.edge + 1 == depth_ && !lastEdgeCarries(c, *drawn)) path.footprint = nullptr;
     if (path.footprint && (goesOn || path.report.isWaiting()))
       path.footprint->scatter(v.s, v.x, *drawn, numbers, squareStrata(siblings));
     path.report.left(path.footprint);
     if (!goesOn) path.report.gone("roulette", drawn->toNext, path.throughput);
     return goesOn;
+  }
+
+  /// Counts a scattering; true if its kind is used up.
+  bool isTooMuch(Path& path, bool specular) const noexcept {
+    return specular ? path.specular++ >= specularDepth_ : path.rough++ >= roughDepth_;
   }
 
   /// Russian roulette by the root of what is left of the flux: by the flux itself the few that
@@ -218,7 +239,7 @@ class PathIntegrator final : public Integrator {
     return true;
   }
 
-  int samples_, split_, depth_;
+  int samples_, split_, depth_, roughDepth_, specularDepth_;
   FootprintSettings footprint_;
   Real clamp_;  ///< infinite: none
 };

@@ -107,7 +107,7 @@ Estimate meanLuminance(const SceneDesc& s, RenderOptions options, int seeds) {
 }  // namespace
 
 TEST_CASE("samples go where the noise is", "[adaptive]") {
-  const auto [film, result] = rendered(skyAndWall(), {.noise = 0.02, .threads = 2});
+  const auto [film, result] = rendered(skyAndWall(), {.noise = 0.01, .threads = 2});
   CHECK(result.end == RenderEnd::finished);
   CHECK(result.quiet == 1);
   for (int y = 0; y < 32; ++y) {
@@ -195,7 +195,7 @@ TEST_CASE("samples, time and noise: the first reached ends the render", "[adapti
 }
 
 TEST_CASE("the share of the work done rises to its end", "[adaptive]") {
-  RenderOptions options{.noise = 0.005, .threads = 2};
+  RenderOptions options{.noise = 0.002, .threads = 2};
   double share = 0, quiet = 0;
   int told = 0;
   options.progress = [&](const Progress& p) {

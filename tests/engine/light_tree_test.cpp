@@ -25,6 +25,7 @@ class Lamp final : public Light {
   LightLogGradient logGradient(Vec3, Vec2) const noexcept override { return {}; }
   std::optional<Particle> emit(EmissionNumbers) const noexcept override { return std::nullopt; }
   RayJacobian emissionDerivatives(EmissionNumbers) const noexcept override { return {}; }
+  bool isDrawn() const noexcept override { return isWanted; }
   LightExtent extent() const noexcept override {
     if (isAnywhere) return {};
     return {{location_, location_}, axis_, 0, reach_};
@@ -39,7 +40,7 @@ class Lamp final : public Light {
     return double(watts_ / lengthSquared(way));
   }
 
-  bool isAnywhere = false;
+  bool isAnywhere = false, isWanted = true;
 
  private:
   Vec3 location_, axis_;
@@ -112,6 +113,22 @@ TEST_CASE("lights are chosen with the chances that are told", "[lights]") {
       }
       CHECK(sum == Approx(1).margin(2e-3));
     }
+  }
+}
+
+TEST_CASE("a light that wants no rays drawn towards it has no chance", "[lights]") {
+  Random r(8);
+  for (const int wanted : {0, 1, 5}) {
+    Lamps lamps;
+    for (int i = 0; i < 7; ++i) lamps.add({within(10, r), 1, {0, 1, 0}, kPi});
+    for (int i = wanted; i < 7; ++i) lamps.owned[std::size_t(i)]->isWanted = false;
+    lamps.build();
+    for (int draw = 0; draw < 100; ++draw) {
+      const auto choice = lamps.tree.choose(within(10, r), r.number());
+      REQUIRE(choice.has_value() == (wanted > 0));
+      if (choice) CHECK(choice->light < wanted);
+    }
+    for (int i = 0; i < 7; ++i) CHECK((lamps.tree.chance(i, within(10, r)) > 0) == (i < wanted));
   }
 }
 

@@ -39,11 +39,13 @@ double cornerFormFactor(double a, double b, double h) {
 constexpr double kFurnaceWidth = 1.3;  // of the picture; the ball has radius 1
 
 /// Nothing but a ball of some BRDF, everywhere in the picture, under a sky of radiance 1.
-Image furnace(const std::string& brdf) {
+Image furnace(const std::string& brdf, const std::string& path = "depth 64") {
   return renderText("camera orthographic { location <0, 0, -3> look_at <0, 0, 0> width " +
                         std::to_string(kFurnaceWidth) +
                         " }\n"
-                        "integrator path { depth 64 }\n"
+                        "integrator path { " +
+                        path +
+                        " }\n"
                         "light environment { radiance rgb 1 }\n"
                         "sphere { <0, 0, 0>, 1 brdf " +
                         brdf + " }\n",
@@ -97,6 +99,7 @@ TEST_CASE("a ball that absorbs nothing vanishes in a white furnace", "[images]")
                            "glass { ior 1.5 }", "glass { ior 1 }"}) {
     INFO(brdf);
     checkGrey(furnace(brdf), 1, 0.005);
+    checkGrey(furnace(brdf, "depth 64 split 3"), 1, 0.005);
   }
 }
 
@@ -133,18 +136,35 @@ TEST_CASE("no ball shines in a white furnace", "[images]") {
 TEST_CASE("light goes round inside a matt ball for as many edges as asked", "[images]") {
   // Point light of intensity pi at the centre, reflectance r = 1/2: each bounce adds half of the
   // one before, r + r^2 + ... in all.
-  const auto inside = [](int depth) {
+  const auto inside = [](const std::string& path) {
     return "camera pinhole { location <0.3, 0.1, 0.2> look_at <0, 0, 1> angle 60 }\n"
-           "integrator path { depth " +
-           std::to_string(depth) +
+           "integrator path { " +
+           path +
            " }\n"
            "light point { location <0, 0, 0> intensity rgb pi }\n"
            "sphere { <0, 0, 0>, 1 brdf lambert { diffuse rgb 0.5 } }\n";
   };
-  checkGrey(renderText(inside(2), kSmall), 0.5, 0.002);
-  checkGrey(renderText(inside(3), kSmall), 0.75, 0.005);
-  checkGrey(renderText(inside(5), kSmall), 0.9375, 0.005);
-  checkGrey(renderText(inside(64), kSmall), 1, 0.005);
+  checkGrey(renderText(inside("depth 2"), kSmall), 0.5, 0.002);
+  checkGrey(renderText(inside("depth 3"), kSmall), 0.75, 0.005);
+  checkGrey(renderText(inside("depth 5"), kSmall), 0.9375, 0.005);
+  checkGrey(renderText(inside("depth 64"), kSmall), 1, 0.005);
+  checkGrey(renderText(inside("depth 64 rough_depth 1"), kSmall), 0.5, 0.002);
+  checkGrey(renderText(inside("depth 64 rough_depth 2"), kSmall), 0.75, 0.005);
+  checkGrey(renderText(inside("depth 64 split 3"), kSmall), 1, 0.005);
+}
+
+TEST_CASE("specular scatterings have a limit of their own", "[images]") {
+  const auto mirror = [](const std::string& path) {
+    return renderText(
+        "camera orthographic { location <0, 0, -3> look_at <0, 0, 0> width 1 }\n"
+        "light environment { radiance rgb 1 }\n"
+        "sphere { <0, 0, 0>, 1 brdf mirror { specular rgb 0.5 } }\n"
+        "integrator path { " +
+            path + " }\n",
+        kSmall);
+  };
+  checkGrey(mirror("specular_depth 0"), 0, 0);
+  checkGrey(mirror("specular_depth 1 rough_depth 0"), 0.5, 1e-3);
 }
 
 TEST_CASE("each light gives the floor what its formula says", "[images]") {
