@@ -25,6 +25,13 @@ constexpr int kMaxSplit = 256;
 /// Of edges, and of scatterings of a kind; roulette ends all paths long before.
 constexpr int kNoLimit = 4096;
 
+/// Where a path scatters.
+struct Vertex {
+  Surface s;
+  Interaction x;
+  InputBuffer inputs;
+};
+
 /// A path under way.
 struct Path {
   Ray ray;
@@ -40,16 +47,28 @@ struct Path {
   Real sceneSize = 0;
   PathReport report;
 
+  /// The last scattering, as long as the footprint has not gone through it: half of all rays leave
+  /// the scene or meet a light, and nobody asks. Null: it has.
+  const Vertex* scatteredAt = nullptr;
+  Scatter scattered{};
+  ScatterNumbers numbers{};
+  int siblings = 1;
+
+  void arrive(const Surface& s) noexcept {
+    if (!footprint) return;
+    catchUp();
+    footprint->arrive(s, sceneSize);
+  }
+  void catchUp() noexcept {
+    if (footprint && scatteredAt)
+      footprint->scatter(scatteredAt->s, scatteredAt->x, scattered, numbers,
+                         squareStrata(siblings));
+    scatteredAt = nullptr;
+  }
+
   void chance(Real probability) noexcept {
     if (footprint) footprint->chance(probability);
   }
-};
-
-/// Where it came to.
-struct Vertex {
-  Surface s;
-  Interaction x;
-  InputBuffer inputs;
 };
 
 class PathIntegrator final : public Integrator {
@@ -113,8 +132,10 @@ class PathIntegrator final : public Integrator {
  private:
   Rgb trace(PathContext& c, Path& path) const noexcept {
     Rgb radiance;
-    Vertex v;
-    for (; path.edge <= depth_ && next(c, path, v, radiance); ++path.edge) {
+    Vertex vertices[2];  // this one, and the one before
+    for (; path.edge <= depth_; ++path.edge) {
+      Vertex& v = vertices[path.edge % 2];
+      if (!next(c, path, v, radiance)) break;
       if (path.edge == 1 && c.aovs) writeAovs(*c.aovs, v.s, v.x);
       if (path.edge == depth_) {
         path.report.end(v.s, v.x.toPrev, path.throughput, "end", path.footprint);
@@ -160,6 +181,7 @@ class PathIntegrator final : public Integrator {
     for (int layer = 0; layer < kMaxLayers; ++layer) {
       ++c.counters.rays;
       if (!c.scene.intersect(path.ray, v.s)) {
+        if (path.drawn.isUnrivalled()) path.catchUp();
         radiance +=
             clamped(c, path.edge,
                     path.throughput * filteredBackground(c.scene, path.drawn, path.ray.direction,
@@ -167,7 +189,7 @@ class PathIntegrator final : public Integrator {
         path.report.gone("escape", path.ray.direction, path.throughput);
         return false;
       }
-      if (path.footprint) path.footprint->arrive(v.s, path.sceneSize);
+      path.arrive(v.s);
       radiance += clamped(c, path.edge, path.throughput * metLight(c.scene, v.s, path.drawn));
       const Vec3 toPrev = -path.ray.direction;
       if (path.edge > 1 && path.edge == depth_)
@@ -216,8 +238,11 @@ class PathIntegrator final : public Integrator {
                         (path.edge < kRouletteFrom ||
                          survives(path, c.sampler.number(dim + dimension::kRoulette, path.index)));
     if (path.edge + 1 == depth_ && !lastEdgeCarries(c, *drawn)) path.footprint = nullptr;
-    if (path.footprint && (goesOn || path.report.isWaiting()))
-      path.footprint->scatter(v.s, v.x, *drawn, numbers, squareStrata(siblings));
+    if (path.footprint && (goesOn || path.report.isWaiting())) {
+      path.scatteredAt = &v, path.scattered = *drawn;
+      path.numbers = numbers, path.siblings = siblings;
+    }
+    if (path.report.isWaiting()) path.catchUp();
     path.report.left(path.footprint);
     if (!goesOn) path.report.gone("roulette", drawn->toNext, path.throughput);
     return goesOn;
