@@ -33,31 +33,21 @@ using Schemas = std::vector<const Schema*>;
 
 Schemas ofKind(const Registry& registry, const std::string& kind) {
   Schemas found;
-  for (const Schema& s : registry.schemas())
-    if (s.kind == kind) found.push_back(&s);
-  return found;
-}
-
-std::vector<std::string> kinds(const Registry& registry) {
-  std::vector<std::string> found;  // schemas() is sorted by kind
-  for (const Schema& s : registry.schemas())
-    if (found.empty() || found.back() != s.kind) found.push_back(s.kind);
+  for (const Schema* s : registry.schemas())
+    if (s->kind == kind) found.push_back(s);
   return found;
 }
 
 /// What the words of the command line mean. The kind may be left out: `describe phong`.
 Schemas lookUp(const DescribeRequest& r, const Registry& registry) {
-  Schemas found;
-  if (r.kind.empty()) {
-    for (const Schema& s : registry.schemas()) found.push_back(&s);
-    return found;
-  }
+  if (r.kind.empty()) return registry.schemas();
   const Schemas kind = ofKind(registry, r.kind);
-  std::vector<std::string> known = kinds(registry);
+  std::vector<std::string> known = registry.kinds();
   if (kind.empty() && r.name.empty()) {
-    for (const Schema& s : registry.schemas()) {
-      if (s.name == r.kind) found.push_back(&s);
-      if (!s.name.empty()) known.push_back(s.name);
+    Schemas found;
+    for (const Schema* s : registry.schemas()) {
+      if (s->name == r.kind) found.push_back(s);
+      if (!s->name.empty()) known.push_back(s->name);
     }
     if (!found.empty()) return found;
   }
@@ -95,6 +85,8 @@ void printPlugins(const Schemas& schemas) {
 
 int runDescribe(const DescribeRequest& r) {
   const Registry registry = loadRegistry(r.pluginPaths);
+  registry.schemas();  // opens every library, also those that the words below do not ask for
+  warnOfRefused(registry, {});
   const Schemas found = lookUp(r, registry);
   if (r.json)
     std::cout << schemasJson(found) << '\n';

@@ -68,10 +68,40 @@ void checkSceneFile(const std::string& file) {
     throw Failure(kCommandLineWrong, fmt::format("'{}' may not be read by this user", file));
 }
 
+/// The registry as the language asks it.
+class RegistrySchemas final : public lang::SchemaSource {
+ public:
+  explicit RegistrySchemas(const Registry& registry) : registry_(registry) {}
+  const Schema* find(const std::string& kind, const std::string& name) const override {
+    return registry_.schema(kind, name);
+  }
+  bool has(const std::string& kind, const std::string& name) const override {
+    return registry_.has(kind, name);
+  }
+  std::vector<std::string> kinds() const override { return registry_.kinds(); }
+  std::vector<std::string> names(const std::string& kind) const override {
+    return registry_.names(kind);
+  }
+  std::string whyMissing(const std::string& kind, const std::string& name) const override {
+    return registry_.whyMissing(kind, name);
+  }
+
+ private:
+  const Registry& registry_;
+};
+
+/// Whether a note of some diagnostic says this.
+bool isSaid(const std::string& sentence, const Diagnostics& diagnostics) {
+  for (const Diagnostic& d : diagnostics.list())
+    for (const Note& n : d.notes)
+      if (n.message == sentence) return true;
+  return false;
+}
+
 }  // namespace
 
 void addPluginPath(CLI::App& command, std::vector<std::string>& paths) {
-  addList(command, "--plugin-path", paths, "load the plugin libraries of this folder too")
+  addList(command, "--plugin-path", paths, "look for plugin libraries in this folder too")
       ->type_name("DIR");
 }
 
@@ -114,11 +144,16 @@ Registry loadRegistry(const std::vector<std::string>& extraPaths) {
   std::vector<std::string> refused;
   Registry registry = Registry::load(folders, refused);
   for (const std::string& sentence : refused) warn(sentence);
-  if (!registry.plugins().empty()) return registry;
+  if (!registry.isEmpty()) return registry;
   std::string places;
   for (const std::string& folder : folders) places += "\n  " + folder;
   throw Failure(kMachineFailed,
                 "found no plugin library, so there is nothing to render with; looked in" + places);
+}
+
+void warnOfRefused(const Registry& registry, const Diagnostics& said) {
+  for (const Refusal& r : registry.refused())
+    if (!isSaid(r.sentence, said)) warn(r.sentence);
 }
 
 LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage stage,
@@ -132,12 +167,13 @@ LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage s
 
   LoadedScene loaded;
   const double start = secondsNow();
-  loaded.text = lang::readScene(input.file, registry.schemas(), options);
+  loaded.text = lang::readScene(input.file, RegistrySchemas(registry), options);
   const double read = secondsNow();
   loaded.loadSeconds = read - start;
   if (stage == Stage::built && !loaded.text.diagnostics.hasErrors())
     loaded.scene = buildScene(loaded.text.scene, registry, build, loaded.text.diagnostics);
   loaded.buildSeconds = secondsNow() - read;
+  warnOfRefused(registry, loaded.text.diagnostics);
   return loaded;
 }
 
@@ -173,11 +209,10 @@ void addBuildOptions(CLI::App& command, BuildOptions& build, const std::string& 
 namespace {
 
 void checkWord(const std::string& kind, const std::string& wanted, const Registry& registry) {
-  if (wanted.empty()) return;
-  std::vector<std::string> known;
-  for (const Schema& s : registry.schemas())
-    if (s.kind == kind) known.push_back(s.name);
-  if (std::find(known.begin(), known.end(), wanted) != known.end()) return;
+  if (wanted.empty() || registry.schema(kind, wanted)) return;
+  if (const std::string why = registry.whyMissing(kind, wanted); !why.empty())
+    throw Failure(kCommandLineWrong, fmt::format("there is no {} '{}': {}", kind, wanted, why));
+  const std::vector<std::string> known = registry.names(kind);
   const std::string near = nearestWord(wanted, known);
   throw Failure(kCommandLineWrong,
                 fmt::format("there is no {} '{}'; {}", kind, wanted,

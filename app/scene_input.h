@@ -30,9 +30,11 @@ void addLimits(CLI::App& command, lang::Limits& limits);
 /// Only --plugin-path.
 void addPluginPath(CLI::App& command, std::vector<std::string>& paths);
 
-/// All plugins of this installation and of the paths; refused libraries are told as warnings.
-/// Failure if there is none at all.
+/// All plugins of this installation and of the paths. Libraries that had to be opened to know what
+/// they hold and were refused are told as warnings. Failure if there is no library at all.
 Registry loadRegistry(const std::vector<std::string>& extraPaths);
+/// Warnings for libraries that were refused when they were asked for, but those that `said` has.
+void warnOfRefused(const Registry& registry, const Diagnostics& said);
 
 /// A text with its meaning, and the scene that was built from it if that was asked for and worked.
 struct LoadedScene {

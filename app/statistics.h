@@ -10,8 +10,8 @@
 namespace vestige::app {
 
 struct Statistics {
-  double importSeconds = 0;  ///< loading plugin libraries
-  double loadSeconds = 0;    ///< reading the text
+  double importSeconds = 0;  ///< finding plugin libraries
+  double loadSeconds = 0;    ///< reading the text, loading the plugins that it names
   double buildSeconds = 0;   ///< files, textures, acceleration structure
   RenderResult render{};
   TextureUse textures;  ///< after rendering

@@ -24,9 +24,10 @@ std::string compilerText() {
 std::string pluginText() {
   const std::vector<std::string> folders = pluginFolders({});
   std::vector<std::string> refused;
-  const std::size_t n = Registry::load(folders, refused).plugins().size();
-  std::string text = fmt::format("{} in {}", n, fmt::join(folders, ", "));
-  if (!refused.empty()) text += fmt::format("; {} refused", refused.size());
+  const Registry registry = Registry::load(folders, refused);
+  std::string text = fmt::format("{} in {}", registry.plugins().size(), fmt::join(folders, ", "));
+  const std::size_t bad = refused.size() + registry.refused().size();
+  if (bad > 0) text += fmt::format("; {} refused", bad);
   return text;
 }
 

@@ -18,11 +18,10 @@ namespace vestige::lang {
 inline constexpr int kDeepestNesting = 1000;
 
 struct Context {
-  Context(const Options& o, std::span<const Schema> s, Sources& t, Diagnostics& d)
-      : options(o), schemas(s), sources(t), reporter(d, o.limits.errors) {}
+  Context(const Options& o, Sources& t, Diagnostics& d)
+      : options(o), sources(t), reporter(d, o.limits.errors) {}
 
   const Options& options;
-  std::span<const Schema> schemas;
   Sources& sources;
   Names names;
   Reporter reporter;

@@ -2,6 +2,8 @@
 // The worth of an expression. What makes no sense is reported and gives std::monostate, which every
 // further step takes in silence: one complaint for one mistake.
 #pragma once
+#include <span>
+
 #include "lang/ast.h"
 #include "lang/context.h"
 

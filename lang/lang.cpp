@@ -13,9 +13,9 @@ namespace {
 /// Everything that one run needs; references between the parts stay valid for its lifetime.
 class Reader {
  public:
-  Reader(const std::string& name, std::span<const Schema> schemas, const Options& options,
+  Reader(const std::string& name, const SchemaSource& schemas, const Options& options,
          Sources& sources, Result& result)
-      : context_(options, schemas, sources, result.diagnostics),
+      : context_(options, sources, result.diagnostics),
         words_(schemas),
         stream_(context_),
         parser_(context_, stream_, words_),
@@ -62,8 +62,8 @@ class Reader {
 
 }  // namespace
 
-Result readSceneText(const std::string& name, const std::string& text,
-                     std::span<const Schema> schemas, const Options& options) {
+Result readSceneText(const std::string& name, const std::string& text, const SchemaSource& schemas,
+                     const Options& options) {
   Result result;
   const auto sources = std::make_shared<Sources>();
   Reader(name, schemas, options, *sources, result).read(name, text);
@@ -73,7 +73,7 @@ Result readSceneText(const std::string& name, const std::string& text,
   return result;
 }
 
-Result readScene(const std::string& file, std::span<const Schema> schemas, const Options& options) {
+Result readScene(const std::string& file, const SchemaSource& schemas, const Options& options) {
   const auto text = readFile(file);
   if (text) return readSceneText(file, *text, schemas, options);
   Result result;

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <ostream>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +27,24 @@ struct Limits {
   std::size_t arrayElements = 4'000'000;  ///< alive at one time
 };
 
+/// Where the language finds the schemas of blocks. It asks for each when a text names it, so that
+/// what takes time, such as opening a plugin library, can wait until then. What is returned must
+/// outlive the reading.
+class SchemaSource {
+ public:
+  virtual ~SchemaSource() = default;
+  /// Null where there is no such block. `name` is "" for a block that is no plugin.
+  virtual const Schema* find(const std::string& kind, const std::string& name) const = 0;
+  /// Whether there ought to be such a block: quick, for it is asked of every word.
+  virtual bool has(const std::string& kind, const std::string& name) const = 0;
+  /// Every kind that there is a schema of.
+  virtual std::vector<std::string> kinds() const = 0;
+  /// Names of one kind, for messages.
+  virtual std::vector<std::string> names(const std::string& kind) const = 0;
+  /// What to tell the user about a block that should be there and is not, or "".
+  virtual std::string whyMissing(const std::string& kind, const std::string& name) const = 0;
+};
+
 struct Options {
   std::vector<std::string> includePaths;  ///< -I, in order; the installed library last
   std::vector<std::pair<std::string, std::string>> definitions;  ///< -D name=expression
@@ -44,9 +61,9 @@ struct Result {
 
 /// Reads a scene file (or, second form, a text under a name) and checks it against the schemas. The
 /// scene is usable only if diagnostics has no errors.
-Result readScene(const std::string& file, std::span<const Schema> schemas, const Options& options);
-Result readSceneText(const std::string& name, const std::string& text,
-                     std::span<const Schema> schemas, const Options& options);
+Result readScene(const std::string& file, const SchemaSource& schemas, const Options& options);
+Result readSceneText(const std::string& name, const std::string& text, const SchemaSource& schemas,
+                     const Options& options);
 
 /// `file:line:column: error: ...`, the line, the caret, the notes, the chain of macros and
 /// includes.

@@ -78,6 +78,7 @@ Block Parser::block() {
   if (word.isWord("object")) return objectBlock();
   const bool isShape = words_.isShape(*word.text) && !words_.isKind(*word.text);
   Head start{isShape ? words_.find("shape", *word.text) : nullptr, word.span};
+  if (isShape && !start.schema) unknownPlugin("shape", word);
   return finishBlock(head(isShape ? "shape" : *word.text, start), Braces::needed);
 }
 
@@ -165,9 +166,11 @@ void Parser::unknownPlugin(const std::string& kind, const Token& found) {
                                                   describe(cell->value) + ", which '" +
                                                   *found.text + "' stands for");
   }
-  context_.reporter.syntaxError(
+  Diagnostic& d = context_.reporter.error(
       found.span, "no " + kind + " is called '" + *found.text + "'" +
                       (near.empty() ? ": expected " + list + ", or a declared one" : near));
+  words_.explain(d, kind, *found.text);
+  throw SyntaxError{};
 }
 
 // ---------------------------------------------------------------- items
@@ -322,7 +325,7 @@ void Parser::blockSetting(BlockBuilder& b, const Parameter& row, const Span& nam
   if (row.name != kind && isAhead(kind.c_str())) stream_.next();
   if (stream_.peek().is("{") && !words_.find(kind, *stream_.peekRaw(1).text))
     start.schema = words_.find(kind, row.name);
-  if (words_.plugins(kind).empty())
+  if (!words_.isKind(kind))
     context_.reporter.syntaxError(nameSpan, "no plugin of kind '" + kind + "' is installed");
   b.setBlock(row, nameSpan, finishBlock(head(kind, start), Braces::optional));
 }

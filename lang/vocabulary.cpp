@@ -1,41 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/vocabulary.h"
 
+#include <map>
+
 #include "lang/builtins.h"
 
 namespace vestige::lang {
 
-Vocabulary::Vocabulary(std::span<const Schema> schemas) : parts_{"brdf", "pigment"} {
-  for (const Schema& s : schemas) {
-    plugins_[s.kind].push_back(s.name);
-    schemas_.emplace(std::pair(s.kind, s.name), &s);
-    for (const auto* rows : {&s.params, &s.inputs})
-      for (const Parameter& p : *rows)
-        if (p.type == ValueType::block) parts_.insert(p.blockKind);
-  }
-}
-
-const Schema* Vocabulary::find(const std::string& kind, const std::string& plugin) const {
-  const auto found = schemas_.find(std::pair(kind, plugin));
-  return found == schemas_.end() ? nullptr : found->second;
+Vocabulary::Vocabulary(const SchemaSource& schemas) : schemas_(schemas) {
+  for (const std::string& kind : schemas.kinds()) kinds_.insert(kind);
 }
 
 bool Vocabulary::opensBlock(const std::string& word) const {
   return word == "object" || isKind(word) || isShape(word);
 }
 
-const std::vector<std::string>& Vocabulary::plugins(const std::string& kind) const {
-  static const std::vector<std::string> none;
-  const auto found = plugins_.find(kind);
-  return found == plugins_.end() ? none : found->second;
+// A list, and not "what is no part of another block": to know that, all schemas would have to be
+// read.
+bool Vocabulary::standsAlone(const std::string& kind) const {
+  static const std::set<std::string> alone = {"camera", "film",  "integrator",
+                                              "light",  "shape", "union"};
+  return isKind(kind) && alone.count(kind) > 0;
 }
 
 std::vector<std::string> Vocabulary::blockWords() const {
   std::vector<std::string> words = plugins("shape");
   words.push_back("object");
-  for (const auto& [kind, names] : plugins_)
+  for (const std::string& kind : kinds_)
     if (kind != "shape") words.push_back(kind);
   return words;
+}
+
+void Vocabulary::explain(Diagnostic& d, const std::string& kind, const std::string& plugin) const {
+  if (const std::string why = schemas_.whyMissing(kind, plugin); !why.empty())
+    d.notes.push_back({{}, why});
 }
 
 const char* insteadOf(const std::string& word) {

@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 // The words that the schemas bring, and those that POV-Ray has and this language has not.
 #pragma once
-#include <map>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
-#include <vestige/schema.h>
+#include "lang/lang.h"
 
 namespace vestige::lang {
 
 class Vocabulary {
  public:
-  explicit Vocabulary(std::span<const Schema> schemas);
+  explicit Vocabulary(const SchemaSource& schemas);
 
-  const Schema* find(const std::string& kind, const std::string& plugin) const;
+  const Schema* find(const std::string& kind, const std::string& plugin) const {
+    return schemas_.find(kind, plugin);
+  }
   /// "brdf", "union", but not "sphere".
-  bool isKind(const std::string& word) const { return plugins_.count(word) > 0; }
-  bool isShape(const std::string& word) const { return find("shape", word) != nullptr; }
+  bool isKind(const std::string& word) const { return kinds_.count(word) > 0; }
+  bool isShape(const std::string& word) const { return schemas_.has("shape", word); }
   /// Begins a block: a kind, a shape or `object`.
   bool opensBlock(const std::string& word) const;
   /// Kinds that may stand outside every other block.
-  bool standsAlone(const std::string& kind) const { return isKind(kind) && !parts_.count(kind); }
+  bool standsAlone(const std::string& kind) const;
+
+  // For messages: these may take long.
   /// Names of a kind's plugins; {""} for a kind that has none.
-  const std::vector<std::string>& plugins(const std::string& kind) const;
+  std::vector<std::string> plugins(const std::string& kind) const { return schemas_.names(kind); }
   /// Every word that opens a block.
   std::vector<std::string> blockWords() const;
+  /// A note that says why a plugin is missing, if there is more to say than that it is.
+  void explain(Diagnostic& d, const std::string& kind, const std::string& plugin) const;
 
  private:
-  std::map<std::string, std::vector<std::string>> plugins_;  ///< by kind
-  std::map<std::pair<std::string, std::string>, const Schema*> schemas_;
-  std::set<std::string> parts_;  ///< kinds that only ever stand inside another block
+  const SchemaSource& schemas_;
+  std::set<std::string> kinds_;
 };
 
 /// What to write instead of a word of POV-Ray's that this language has no use for; null for others.

@@ -76,7 +76,10 @@ void SceneBuilder::addTop(const Block& block) {
 // ---------------------------------------------------------------- plugins
 bool SceneBuilder::known(const Block& block) {
   if (registry_.find(block.kind, block.plugin)) return true;
-  error(at(block.span), fmt::format("there is no {} called '{}'", block.kind, block.plugin));
+  Diagnostic& d =
+      error(at(block.span), fmt::format("there is no {} called '{}'", block.kind, block.plugin));
+  if (const std::string why = registry_.whyMissing(block.kind, block.plugin); !why.empty())
+    d.notes.push_back({{}, why});
   return false;
 }
 

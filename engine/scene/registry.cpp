@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/registry.h"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
+#include <map>
 
 #include "engine/scene/engine_schemas.h"
 
@@ -16,47 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why an entry cannot be used, or "". Fields are read in the order in which they become safe to.
-std::string refusal(const VestigePlugin& e) {
-  if (e.magic != kPluginMagic) return "its entry does not begin with the magic number of a plugin";
-  if (e.size < sizeof(VestigePlugin))
-    return fmt::format("its entry is {} bytes long, this engine needs {}", e.size,
-                       sizeof(VestigePlugin));
-  if (e.sdkMajor != kSdkMajor || e.sdkMinor > kSdkMinor)
-    return fmt::format("it was built for SDK {}.{}, this engine has {}.{}", e.sdkMajor, e.sdkMinor,
-                       kSdkMajor, kSdkMinor);
-  if (std::string(e.abiTag) != kAbiTag)
-    return fmt::format("it was built as '{}', this engine as '{}'", e.abiTag, kAbiTag);
-  if (!e.schema || !e.create || !e.destroy || !e.kind || !e.name)
-    return "its entry has empty fields";
-  return "";
-}
-
-/// Loads one library; nullopt with the reason in `why`.
-std::optional<Plugin> loadPlugin(const std::string& file, std::string& why) {
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!library) {
-    why = dlerror();
-    return std::nullopt;
-  }
-  const auto* entry = static_cast<const VestigePlugin*>(dlsym(library, "vestige_plugin"));
-  why = entry ? refusal(*entry) : "it exports no symbol 'vestige_plugin'";
-  if (!why.empty()) {
-    dlclose(library);
-    return std::nullopt;
-  }
-  // Never closed again: objects of the plugin may live as long as the program.
-  return Plugin{entry->kind, entry->name, entry->version,
-                file,        entry,       static_cast<const Schema*>(entry->schema())};
-}
-
-std::vector<std::string> librariesIn(const std::string& folder) {
-  std::vector<std::string> files;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".so") files.push_back(entry.path().string());
-  std::sort(files.begin(), files.end());
-  return files;
+std::string notLoaded(const std::string& file, const std::string& why) {
+  return fmt::format("plugin library '{}' was not loaded: {}", file, why);
 }
 
 fs::path programFolder() {
@@ -76,40 +36,153 @@ std::string noteOnDifferences(const Plugin& plugin) {
                      plugin.kind, plugin.name, missing);
 }
 
+/// What is known of the folders so far; grows as libraries are opened.
+class Registry::Catalogue {
+ public:
+  Catalogue();
+  /// The next library of the folders: noted if its name says what it holds, opened if not.
+  void add(const std::string& file, std::vector<std::string>& refusedNow);
+  /// After these nothing of that name, that kind, nothing at all waits.
+  void open(const PluginName& wanted);
+  void openKind(const std::string& kind);
+  void openAll();
+
+  /// Files that promise a plugin, unopened, in the order of their folders. They came later than
+  /// what `plugins` has under the same name.
+  std::map<PluginName, std::vector<std::string>> waiting;
+  std::map<PluginName, Plugin> plugins;
+  std::map<PluginName, Schema> schemas;  ///< of plugins and of blocks that are none
+  std::vector<Refusal> refused;
+
+ private:
+  void take(const Plugin& plugin);
+};
+
+Registry::Catalogue::Catalogue() {
+  for (const Schema& s : engineSchemas()) schemas[{s.kind, s.name}] = s;
+}
+
+void Registry::Catalogue::add(const std::string& file, std::vector<std::string>& refusedNow) {
+  if (const std::optional<PluginName> promised = promisedBy(file)) {
+    waiting[*promised].push_back(file);
+    return;
+  }
+  std::string why;
+  if (const std::optional<Plugin> plugin = openPlugin(file, {}, why)) {
+    waiting.erase({plugin->kind, plugin->name});
+    take(*plugin);
+  } else {
+    refusedNow.push_back(notLoaded(file, why));
+  }
+}
+
+void Registry::Catalogue::take(const Plugin& plugin) {
+  const PluginName name = {plugin.kind, plugin.name};
+  plugins[name] = plugin;
+  schemas[name] = withEngineRows(*plugin.schema);
+}
+
+void Registry::Catalogue::open(const PluginName& wanted) {
+  const auto files = waiting.extract(wanted);
+  if (!files) return;
+  for (auto file = files.mapped().rbegin(); file != files.mapped().rend(); ++file) {
+    std::string why;
+    if (const std::optional<Plugin> plugin = openPlugin(*file, wanted, why)) return take(*plugin);
+    refused.push_back({wanted, notLoaded(*file, why)});
+  }
+}
+
+void Registry::Catalogue::openKind(const std::string& kind) {
+  for (auto next = waiting.lower_bound({kind, ""});
+       next != waiting.end() && next->first.kind == kind; next = waiting.lower_bound({kind, ""}))
+    open(PluginName(next->first));
+}
+
+void Registry::Catalogue::openAll() {
+  while (!waiting.empty()) open(PluginName(waiting.begin()->first));
+}
+
+Registry::Registry() : catalogue_(std::make_unique<Catalogue>()) {}
+Registry::Registry(Registry&&) noexcept = default;
+Registry::~Registry() = default;
+
 Registry Registry::load(const std::vector<std::string>& folders,
                         std::vector<std::string>& refused) {
   Registry r;
   for (const std::string& folder : folders)
-    for (const std::string& file : librariesIn(folder)) {
-      std::string why;
-      const std::optional<Plugin> p = loadPlugin(file, why);
-      if (!p) {
-        refused.push_back(fmt::format("plugin library '{}' was not loaded: {}", file, why));
-        continue;
-      }
-      std::erase_if(r.plugins_,
-                    [&](const Plugin& q) { return q.kind == p->kind && q.name == p->name; });
-      r.plugins_.push_back(*p);
-    }
-  r.schemas_ = engineSchemas();
-  for (const Plugin& p : r.plugins_) r.schemas_.push_back(withEngineRows(*p.schema));
-  std::sort(r.schemas_.begin(), r.schemas_.end(), [](const Schema& a, const Schema& b) {
-    return std::pair(a.kind, a.name) < std::pair(b.kind, b.name);
-  });
+    for (const std::string& file : librariesIn(folder)) r.catalogue_->add(file, refused);
   return r;
 }
 
-const Plugin* Registry::find(const std::string& kind, const std::string& name) const noexcept {
-  for (const Plugin& p : plugins_)
-    if (p.kind == kind && p.name == name) return &p;
-  return nullptr;
+bool Registry::isEmpty() const {
+  return catalogue_->plugins.empty() && catalogue_->waiting.empty() && catalogue_->refused.empty();
 }
 
-const Schema* Registry::schema(const std::string& kind, const std::string& name) const noexcept {
-  for (const Schema& s : schemas_)
-    if (s.kind == kind && s.name == name) return &s;
-  return nullptr;
+std::size_t Registry::loaded() const { return catalogue_->plugins.size(); }
+
+bool Registry::has(const std::string& kind, const std::string& name) const {
+  const PluginName wanted = {kind, name};
+  const auto isWanted = [&](const Refusal& r) { return r.promised == wanted; };
+  const std::vector<Refusal>& refused = catalogue_->refused;
+  return catalogue_->schemas.count(wanted) > 0 || catalogue_->waiting.count(wanted) > 0 ||
+         std::any_of(refused.begin(), refused.end(), isWanted);
 }
+
+const Plugin* Registry::find(const std::string& kind, const std::string& name) const {
+  const PluginName wanted = {kind, name};
+  catalogue_->open(wanted);
+  const auto found = catalogue_->plugins.find(wanted);
+  return found == catalogue_->plugins.end() ? nullptr : &found->second;
+}
+
+const Schema* Registry::schema(const std::string& kind, const std::string& name) const {
+  const PluginName wanted = {kind, name};
+  catalogue_->open(wanted);
+  const auto found = catalogue_->schemas.find(wanted);
+  return found == catalogue_->schemas.end() ? nullptr : &found->second;
+}
+
+std::string Registry::whyMissing(const std::string& kind, const std::string& name) const {
+  if (schema(kind, name)) return "";
+  for (const Refusal& r : catalogue_->refused)
+    if (r.promised == PluginName{kind, name}) return r.sentence;
+  return "";
+}
+
+std::vector<std::string> Registry::kinds() const {
+  std::vector<std::string> found;
+  const auto add = [&](const auto& map) {
+    for (const auto& [name, ignored] : map) found.push_back(name.kind);
+  };
+  add(catalogue_->schemas), add(catalogue_->waiting);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::vector<std::string> Registry::names(const std::string& kind) const {
+  catalogue_->openKind(kind);
+  std::vector<std::string> found;
+  for (const auto& [name, ignored] : catalogue_->schemas)
+    if (name.kind == kind) found.push_back(name.name);
+  return found;
+}
+
+std::vector<Plugin> Registry::plugins() const {
+  catalogue_->openAll();
+  std::vector<Plugin> all;
+  for (const auto& [ignored, plugin] : catalogue_->plugins) all.push_back(plugin);
+  return all;
+}
+
+std::vector<const Schema*> Registry::schemas() const {
+  catalogue_->openAll();
+  std::vector<const Schema*> all;
+  for (const auto& [ignored, schema] : catalogue_->schemas) all.push_back(&schema);
+  return all;
+}
+
+const std::vector<Refusal>& Registry::refused() const { return catalogue_->refused; }
 
 std::string installedPluginFolder() {
   return (programFolder().parent_path() / "lib/vestige/plugins").string();

@@ -1,41 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds, checks and loads plugin libraries. Built-in plugins take the same way as a stranger's.
+// Finds plugin libraries, and loads one when its plugin is asked for. Built-in plugins take the
+// same way as a stranger's.
 #pragma once
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <vestige/abi.h>
 #include <vestige/host.h>
 #include <vestige/inputs.h>
 
-namespace vestige {
+#include "engine/scene/plugin_library.h"
 
-/// One plugin that passed the checks.
-struct Plugin {
-  std::string kind, name, version, file;
-  const VestigePlugin* entry;
-  const Schema* schema;  ///< as the plugin wrote it
-};
+namespace vestige {
 
 /// For the user: that derivatives of this plugin are taken by finite differences, and which.
 std::string noteOnDifferences(const Plugin& plugin);
 
+/// A library that was asked for and could not be taken.
+struct Refusal {
+  PluginName promised;   ///< by the name of its file
+  std::string sentence;  ///< for the user: which file, and why
+};
+
+/// All plugins of some folders. A library is opened when somebody asks for what its file's name
+/// promises: a scene pays for the plugins that it names, and hears nothing of a broken one that it
+/// does not. So these functions are const in what they answer, not in what they do: ask on one
+/// thread only, the one that reads and builds scenes. What they return lives as long as the
+/// registry.
 class Registry {
  public:
-  /// Loads every library of these folders, in order; a later one of the same kind and name replaces
-  /// an earlier. `refused` receives a sentence for each library that was not taken, with the
-  /// reason.
+  /// Lists the libraries of these folders, in order; a later one of the same kind and name replaces
+  /// an earlier, unless it is refused. Those whose file names promise nothing are opened now:
+  /// `refused` receives a sentence for each of them that was not taken, with the reason.
   static Registry load(const std::vector<std::string>& folders, std::vector<std::string>& refused);
+  Registry(Registry&&) noexcept;
+  ~Registry();
 
-  const std::vector<Plugin>& plugins() const noexcept { return plugins_; }
-  const Plugin* find(const std::string& kind, const std::string& name) const noexcept;
+  /// Whether no library was found, fit or not.
+  bool isEmpty() const;
+  /// How many plugins are loaded by now.
+  std::size_t loaded() const;
 
-  /// What the language may say: every plugin's schema with the rows that the engine adds to its
-  /// kind (opacity, normal_map, emission, ...), and the blocks that are no plugins (film, union,
-  /// ...).
-  const std::vector<Schema>& schemas() const noexcept { return schemas_; }
-  const Schema* schema(const std::string& kind, const std::string& name) const noexcept;
+  /// Whether there is such a plugin or block, as far as names of files tell. Opens nothing, and
+  /// always answers the same.
+  bool has(const std::string& kind, const std::string& name) const;
+  /// Null where there is none, or none that can be taken: whyMissing().
+  const Plugin* find(const std::string& kind, const std::string& name) const;
+  /// A plugin's schema with the rows that the engine adds to its kind (opacity, normal_map,
+  /// emission, ...), or that of a block that is no plugin (film, union, ...).
+  const Schema* schema(const std::string& kind, const std::string& name) const;
+  /// The reason if a library was to hold this plugin but was refused, else "".
+  std::string whyMissing(const std::string& kind, const std::string& name) const;
+
+  /// First words of blocks: "brdf", "film", ... Opens nothing.
+  std::vector<std::string> kinds() const;
+  /// What there is of one kind, by name. Opens all its libraries.
+  std::vector<std::string> names(const std::string& kind) const;
+  /// Everything, by kind and name. These open all libraries.
+  std::vector<Plugin> plugins() const;
+  std::vector<const Schema*> schemas() const;
+
+  /// What was asked for so far in vain.
+  const std::vector<Refusal>& refused() const;
 
   /// Creates an object of plugin `kind name`; null with `error` filled. Interface must be the
   /// kind's. The host is told a note where the plugin leaves derivatives to differences.
@@ -50,8 +76,10 @@ class Registry {
   }
 
  private:
-  std::vector<Plugin> plugins_;
-  std::vector<Schema> schemas_;
+  class Catalogue;
+  Registry();
+
+  std::unique_ptr<Catalogue> catalogue_;
 };
 
 /// Where this installation keeps its plugins and its language includes: found beside the program.

@@ -115,11 +115,64 @@ TEST_CASE("without plugins it says where it looked", "[app]") {
              containsText("found no plugin") && containsText(folder / "lib/vestige/plugins"));
 }
 
-TEST_CASE("a library that is no plugin is refused with a reason and the render goes on", "[app]") {
+TEST_CASE("a broken library that the scene does not name goes unmentioned", "[app]") {
   const Folder folder;
   folder.write("brdf_stranger.so", "not a library");
   const std::string scene = folder.write("a.scene", smallScene());
   const Run r = vestige({"check", scene, "--plugin-path", folder.path().string()});
   CHECK(r.exit == 0);
-  CHECK_THAT(r.err, containsText("warning") && containsText("brdf_stranger.so"));
+  CHECK(r.err.empty());
+  const Run all = vestige({"describe", "--plugin-path", folder.path().string()});
+  CHECK(all.exit == 0);
+  CHECK_THAT(all.err, containsText("warning") && containsText("brdf_stranger.so"));
+}
+
+TEST_CASE("a library whose name promises nothing is refused with a reason and the render goes on",
+          "[app]") {
+  const Folder folder;
+  folder.write("stranger.so", "not a library");
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = vestige({"check", scene, "--plugin-path", folder.path().string()});
+  CHECK(r.exit == 0);
+  CHECK_THAT(r.err, containsText("warning") && containsText("stranger.so"));
+}
+
+TEST_CASE("a scene that names a broken library is told why", "[app]") {
+  const Folder folder;
+  for (const char* name : {"brdf_moth.so", "shape_hole.so", "integrator_stranger.so"})
+    folder.write(name, "not a library");
+  const auto inspect = [&](const std::string& more, const std::vector<std::string>& options = {}) {
+    std::vector<std::string> words = {"inspect", folder.write("a.scene", smallScene(more))};
+    words.insert(words.end(), {"0", "0", "--plugin-path", folder.path().string()});
+    words.insert(words.end(), options.begin(), options.end());
+    return vestige(words);
+  };
+  /// Once, and of no other library.
+  const auto isTold = [&](const std::string& text, const std::string& file) {
+    const std::size_t first = text.find("was not loaded");
+    return text.find((folder / file) + "' was not loaded") != text.npos &&
+           text.find("was not loaded", first + 1) == text.npos;
+  };
+  const Run brdf = inspect("sphere { <0, 1, 0>, 1 brdf moth { } }");
+  INFO(brdf.err);
+  CHECK(brdf.exit == 1);
+  CHECK_THAT(brdf.err, containsText("no brdf is called 'moth'"));
+  CHECK(isTold(brdf.err, "brdf_moth.so"));
+  const Run shape = inspect("hole { <0, 1, 0>, 1 }");
+  INFO(shape.err);
+  CHECK(shape.exit == 1);
+  CHECK(isTold(shape.err, "shape_hole.so"));
+  const Run integrator = inspect("", {"--integrator", "stranger"});
+  INFO(integrator.err);
+  CHECK(integrator.exit == 2);
+  CHECK(isTold(integrator.err, "integrator_stranger.so"));
+}
+
+TEST_CASE("a broken library does not displace a sound one, and is told", "[app]") {
+  const Folder folder;
+  folder.write("brdf_lambert.so", "not a library");
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = vestige({"check", scene, "--plugin-path", folder.path().string()});
+  CHECK(r.exit == 0);
+  CHECK_THAT(r.err, containsText("warning") && containsText(folder / "brdf_lambert.so"));
 }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/registry.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "support/catch.h"
 #include "support/scenes.h"
+#include "support/temp_folder.h"
 
 using namespace vestige;
+using vestige::test::TempFolder;
 namespace fs = std::filesystem;
 
 TEST_CASE("every built-in is found where it is built", "[registry]") {
@@ -72,4 +75,74 @@ TEST_CASE("a plugin built for another engine is refused with both sides named", 
   CHECK_THAT(reason("tag"), containsText("elsewhere"));
   CHECK_THAT(reason("tag"), containsText(kAbiTag));
   CHECK_THAT(reason("empty"), containsText("empty fields"));
+}
+
+TEST_CASE("a library is loaded when its plugin is asked for", "[registry][lazy]") {
+  std::vector<std::string> refused;
+  const Registry r = Registry::load({VESTIGE_PLUGINS}, refused);
+  CHECK(r.loaded() == 0);
+  const std::vector<std::string> kinds = r.kinds();
+  CHECK(std::count(kinds.begin(), kinds.end(), "brdf") == 1);
+  CHECK(r.schema("film", ""));
+  CHECK_FALSE(r.find("brdf", "no such thing"));
+  CHECK(r.loaded() == 0);
+  Diagnostics diagnostics;
+  CHECK(buildScene(test::room(0.5, "path"), r, {}, diagnostics));
+  CHECK(r.loaded() == 5);  // pinhole, path, area, quad, lambert
+  const Schema* lambert = r.schema("brdf", "lambert");
+  CHECK(r.names("brdf").size() > 1);
+  const std::size_t all = r.plugins().size();
+  CHECK(all == r.loaded());
+  CHECK(all > 40);
+  CHECK(r.schema("brdf", "lambert") == lambert);
+}
+
+TEST_CASE("a broken library is refused when its plugin is asked for", "[registry][lazy]") {
+  const TempFolder folder;
+  std::ofstream(folder / "brdf_broken.so") << std::string(100, '?');
+  std::ofstream(folder / "brdf_lambert.so") << "not a library";
+  std::vector<std::string> refused;
+  const Registry r = Registry::load({VESTIGE_PLUGINS, folder.path()}, refused);
+  CHECK(refused.empty());
+  CHECK(r.refused().empty());
+  CHECK(r.has("brdf", "broken"));
+  CHECK_FALSE(r.find("brdf", "broken"));
+  CHECK(r.has("brdf", "broken"));
+  REQUIRE(r.refused().size() == 1);
+  CHECK_THAT(r.whyMissing("brdf", "broken"), containsText("brdf_broken.so' was not loaded: ") &&
+                                                 containsText("invalid ELF header"));
+  CHECK(r.whyMissing("brdf", "no such thing").empty());
+
+  CHECK(r.find("brdf", "lambert"));  // that of the folder before
+  CHECK(r.whyMissing("brdf", "lambert").empty());
+  r.plugins();
+  CHECK(r.refused().size() == 2);
+}
+
+TEST_CASE("a library must hold what its name promises", "[registry][lazy]") {
+  const TempFolder folder;
+  const fs::path lambert = VESTIGE_PLUGINS "/brdf_lambert.so";
+  fs::copy_file(lambert, folder / "brdf_velvet.so");
+  std::vector<std::string> refused;
+  const Registry r = Registry::load({folder.path()}, refused);
+  CHECK_FALSE(r.find("brdf", "velvet"));
+  CHECK_FALSE(r.find("brdf", "lambert"));
+  CHECK_THAT(r.whyMissing("brdf", "velvet"),
+             containsText("promises brdf 'velvet'") && containsText("holds brdf 'lambert'"));
+}
+
+TEST_CASE("a library may have any name that promises nothing", "[registry][lazy]") {
+  const TempFolder early, late;
+  const fs::path lambert = VESTIGE_PLUGINS "/brdf_lambert.so";
+  fs::copy_file(lambert, early / "mine.so");
+  fs::copy_file(lambert, late / "brdf_lambert.so");
+  const auto fileFor = [](const std::vector<std::string>& folders) {
+    std::vector<std::string> refused;
+    const Registry r = Registry::load(folders, refused);
+    CHECK(refused.empty());
+    return r.find("brdf", "lambert")->file;
+  };
+  CHECK(fileFor({early.path()}) == early / "mine.so");
+  CHECK(fileFor({early.path(), late.path()}) == late / "brdf_lambert.so");
+  CHECK(fileFor({late.path(), early.path()}) == early / "mine.so");
 }

@@ -13,6 +13,7 @@
 #include "lang/lang.h"
 #include "support/catch.h"
 #include "support/scenes.h"
+#include "support/schema_list.h"
 
 using namespace vestige;
 using namespace vestige::test;
@@ -40,7 +41,9 @@ std::string balls(const std::string& pigment, const std::string& integrator) {
 }
 
 std::unique_ptr<Scene> built(const std::string& text) {
-  lang::Result read = lang::readSceneText("never_worse", text, registry().schemas(), {});
+  std::vector<Schema> schemas;
+  for (const Schema* s : registry().schemas()) schemas.push_back(*s);
+  lang::Result read = lang::readSceneText("never_worse", text, SchemaList(schemas), {});
   auto scene = buildScene(read.scene, registry(), {}, read.diagnostics);
   for (const Diagnostic& d : read.diagnostics.list()) INFO(d.message);
   REQUIRE(scene);

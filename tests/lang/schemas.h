@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lang/lang.h"
+#include "support/schema_list.h"
 
 namespace vestige::lang::test {
 
@@ -17,8 +18,8 @@ inline Parameter textured(Parameter p) {
   return p;
 }
 
-inline const std::vector<Schema>& schemas() {
-  static const std::vector<Schema> all = [] {
+inline const SchemaSource& schemas() {
+  static const vestige::test::SchemaList all = [] {
     const std::vector<std::string> shapeParts = {"brdf"};
     const auto point = [](const char* name) { return vec3(name, {}).need().place(); };
     std::vector<Schema> s;
@@ -79,7 +80,7 @@ inline const std::vector<Schema>& schemas() {
         {"shape", "plane", "", {point("normal"), real("distance", 0).place()}, {}, shapeParts});
     s.push_back({"shape", "mesh", "", {file("file").need().place()}, {}, shapeParts});
     s.push_back({"union", "", "shapes together", {}, {}, {"shape", "union", "brdf"}});
-    return s;
+    return vestige::test::SchemaList(s);
   }();
   return all;
 }
