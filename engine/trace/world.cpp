@@ -145,6 +145,7 @@ void World::commit() {
 
 std::size_t World::dropped() const noexcept { return impl_->dropped; }
 std::size_t World::triangles() const noexcept { return impl_->triangles; }
+const std::vector<Placement>& World::placements() const noexcept { return impl_->placements; }
 Bounds World::bounds() const noexcept { return impl_->bounds; }
 std::span<const Patch> World::patches() const noexcept { return impl_->patches.all(); }
 Real World::patchArea(int patch, Vec2 low, Vec2 high) const noexcept {

@@ -56,6 +56,7 @@ class World {
   Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept;
 
   std::size_t triangles() const noexcept;  ///< without instances
+  const std::vector<Placement>& placements() const noexcept;
   static std::string embreeVersion();
 
  private:
