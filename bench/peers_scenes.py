@@ -17,9 +17,10 @@ TERRAIN_QUADS = 723  # along each side: 723 x 723 x 2 = 1,045,458 triangles
 MESH_SCENE = """// SPDX-License-Identifier: Apache-2.0
 // Written by bench/peers: a height field of 1,045,458 triangles under an area light and an even sky.
 #ifndef (Depth) #declare Depth = 5; #end
+#ifndef (Split) #declare Split = 1; #end
 camera pinhole { location <0, 4.5, -8.5>  look_at <0, -0.3, -0.5>  angle 45 }
 film { resolution <512, 384>  filter "box" }
-integrator path { samples 64  depth Depth }
+integrator path { samples 64  depth Depth  split Split }
 light environment { radiance rgb <0.3, 0.35, 0.45> }
 light area { <-5, 7, 1>, <0, 0, -2>, <2, 0, 0>  radiance rgb <50, 45, 38> }
 mesh { "mesh-ground.ply"  smooth false  brdf lambert { diffuse pigment image { "gravel.png"  color_space "srgb" } } }

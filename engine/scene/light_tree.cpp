@@ -131,7 +131,7 @@ void LightTree::build(std::span<const Light* const> lights) {
   outside_.clear(), nodes_.clear(), parents_.clear(), places_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light& light = *lights[i];
-    if (!light.isDrawn()) {
+    if (!light.isDrawn() && !light.isDelta()) {
       places_.push_back({-1, -1}), clusters.emplace_back(LightExtent{}, Real(0));
       continue;
     }

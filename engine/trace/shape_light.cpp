@@ -125,7 +125,7 @@ class MeshLight final : public SurfaceLight {
     const Real stretch = Real(total / width);
     const auto column = [&](Vec2 d) { return d.x * e.ab + d.y * e.ac; };
     AreaSample s{{}, {stretch * column(t.du[0]), column(t.du[1])}, {}, Real(1 / total)};
-    triangles_.at(k, t.b, e, s.point);
+    triangles_.at(k, t.b, s.point);
     return s;
   }
   Real areaPdf(Vec3) const noexcept override { return sums_.empty() ? 0 : Real(1 / sums_.back()); }

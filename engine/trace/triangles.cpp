@@ -79,7 +79,8 @@ Real Triangles::area(std::uint32_t triangle) const noexcept {
   return Real(norm(across(positions_, triangles_[triangle])) / 2);
 }
 
-void Triangles::at(std::uint32_t triangle, Vec2 b, const Edges& e, SurfacePoint& s) const noexcept {
+Real Triangles::at(std::uint32_t triangle, Vec2 b, SurfacePoint& s) const noexcept {
+  const Edges e = edges(triangle);
   const auto& c = triangles_[triangle];
   const Vec3 p[3] = {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
   // In double and rounded once: so the point is off the plane by its own rounding only, however
@@ -89,6 +90,7 @@ void Triangles::at(std::uint32_t triangle, Vec2 b, const Edges& e, SurfacePoint&
                          b.y * (double(p[2][k]) - p[0][k]));
   s.geometricNormal = e.normal;
   shade(s, c, b, e);
+  return std::max(maxAbsComponent(e.ab), maxAbsComponent(e.ac));
 }
 
 void Triangles::shade(SurfacePoint& s, const std::array<std::uint32_t, 3>& c, Vec2 b,
@@ -106,6 +108,7 @@ void Triangles::shade(SurfacePoint& s, const std::array<std::uint32_t, 3>& c, Ve
     }
   }
   s.uv = b;
+  s.dPduu = s.dPduv = s.dPdvv = {};
   s.dPdu = e.ab, s.dPdv = e.ac, s.dNdu = dN[0], s.dNdv = dN[1];
   if (source_->uvs.size() != positions_.size()) return;
   const Vec2 t0 = source_->uvs[c[0]], t1 = source_->uvs[c[1]] - t0, t2 = source_->uvs[c[2]] - t0;

@@ -24,9 +24,9 @@ class Triangles {
 
   Real area(std::uint32_t triangle) const noexcept;
 
-  /// Fills in the point with barycentric coordinates b of the second and third corner; `edges` are
-  /// those of the triangle.
-  void at(std::uint32_t triangle, Vec2 b, const Edges& edges, SurfacePoint& s) const noexcept;
+  /// Fills in the point with barycentric coordinates b of the second and third corner. Returns the
+  /// largest component of the edges.
+  Real at(std::uint32_t triangle, Vec2 b, SurfacePoint& s) const noexcept;
 
   /// Where a ray in this space meets the triangle's plane, in full precision.
   struct Meeting {

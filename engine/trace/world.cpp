@@ -27,9 +27,8 @@ Vec2 clampBarycentric(Vec2 b) noexcept {
 
 /// In float the position is off by its own rounding; Embree's distance from the plane by that of
 /// the vectors to the triangle's corners; an instance takes the ray through its matrix, in float.
-Real triangleOffset(const Item& item, const SurfacePoint& s, const Triangles::Edges& e) noexcept {
+Real triangleOffset(const Item& item, const SurfacePoint& s, Real extent) noexcept {
   Real position = maxAbsComponent(s.position);
-  Real extent = std::max(maxAbsComponent(e.ab), maxAbsComponent(e.ac));
   if (!item.baked) {
     extent *= item.place.norm;
     position = std::max(position, item.place.condition * (position + item.place.shift));
@@ -95,13 +94,11 @@ void World::Impl::fillTriangle(Surface& s, const Item& item, const Ray& ray,
     hit.t = exact.t, hit.b = exact.b;
   }
   const Vec2 b = clampBarycentric(hit.b);
-  const auto triangle = std::uint32_t(hit.primitive);
-  const Triangles::Edges edges = item.triangles->edges(triangle);
-  item.triangles->at(triangle, b, edges, s);
+  const Real extent = item.triangles->at(std::uint32_t(hit.primitive), b, s);
   if (!item.baked) static_cast<SurfacePoint&>(s) = item.place.world(s);
   s.distance = hit.t;
   s.patchUv = b;
-  s.offset = triangleOffset(item, s, edges);
+  s.offset = triangleOffset(item, s, extent);
 }
 
 void World::Impl::fillShape(Surface& s, const Item& item, const Ray& ray,

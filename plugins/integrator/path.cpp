@@ -14,7 +14,7 @@
 namespace vestige {
 namespace {
 
-/// Roulette starts after this many scatterings; before, paths are too valuable.
+/// Roulette starts with this scattering; before, paths are too valuable.
 constexpr int kRouletteFrom = 4;
 /// Nobody survives for certain: a closed room of white walls still ends.
 constexpr Real kMaxSurvival = Real(0.95);
@@ -40,7 +40,6 @@ struct Path {
   int edge = 1;             ///< under way, from the camera
   int rough = 0, specular = 0;  ///< scatterings so far
   int rays = 1;                 ///< into which it is still to split
-  bool isTold = true;           ///< to AOVs and reports: of the rays of a split the first is
   Rgb throughput{1, 1, 1};
   Rgb flux{1, 1, 1};                     ///< throughput without eta^2: what roulette decides by
   PathFootprint<>* footprint = nullptr;  ///< null: carries none
@@ -163,7 +162,7 @@ class PathIntegrator final : public Integrator {
       ray.index = path.index * std::uint32_t(path.rays) + std::uint32_t(i);
       std::optional<PathFootprint<>> footprint;
       if (path.footprint) ray.footprint = &footprint.emplace(*path.footprint);
-      if (i > 0) ray.isTold = false, ray.report = PathReport();
+      if (i > 0) ray.report = PathReport();  // the first is told
       const bool goesOn = scatter(c, ray, v);
       // A mirror leaves no choice: one ray stands for all, and splits where it comes to.
       const bool isOnly = i == 0 && ray.rays > 1;
@@ -223,9 +222,10 @@ class PathIntegrator final : public Integrator {
     const std::optional<Scatter> drawn = drawScatter(v.x, numbers);
     const bool isOnly = drawn && drawn->local.specular && drawn->local.lobeChance == 1;
     const int siblings = isOnly ? 1 : std::exchange(path.rays, 1);
-    if (path.edge == 1 && path.isTold && c.aovs && drawn) c.aovs->albedo = drawn->local.weight;
+    if (path.edge == 1 && c.aovs && drawn) c.aovs->albedo += drawn->local.weight / Real(siblings);
     if (!drawn || isTooMuch(path, drawn->local.specular)) {
-      path.report.end(v.s, v.x.toPrev, path.throughput, "absorbed", path.footprint);
+      const char* event = drawn ? "end" : "absorbed";
+      path.report.end(v.s, v.x.toPrev, path.throughput, event, path.footprint);
       return false;
     }
     path.report.scatter(v.s, v.x.toPrev, path.throughput, *drawn, path.footprint);

@@ -2,8 +2,13 @@
 // The builder and the session on scenes written by hand.
 #include "engine/scene/scene.h"
 
+#include <cstring>
+#include <set>
+
 #include "engine/render/session.h"
 #include "support/catch.h"
+#include "support/differences.h"
+#include "support/room_of_everything.h"
 #include "support/scenes.h"
 
 using namespace vestige;
@@ -143,6 +148,33 @@ TEST_CASE("what cannot be built is said in one sentence", "[scene]") {
   brdf.settings.push_back({"diffuse", image, {}});
   missing.blocks.push_back(test::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {brdf}));
   CHECK_THAT(onlyError(missing), containsText("no_such_file.png"));
+}
+
+TEST_CASE("a surface that is filled in keeps nothing of what it was before", "[scene]") {
+  const test::TempFolder folder;
+  const auto scene = test::built(test::everything(folder.path()));
+  const Camera& camera = scene->camera();
+  std::set<int> objects;
+  test::Random random(3);
+  for (int i = 0; i < 20000; ++i) {
+    const auto start = camera.sample({{random.number(), random.number()}, {}, 1});
+    if (!start) continue;
+    // Two surfaces that differ in every byte, and after the same ray only in what is padding.
+    Surface a, b;
+    std::memset(static_cast<void*>(&a), 0x44, sizeof a);
+    std::memset(static_cast<void*>(&b), 0x55, sizeof b);
+    const Ray ray{start->origin, start->direction, 0, kInfinity};
+    if (!scene->view().intersect(ray, a)) continue;
+    REQUIRE(scene->view().intersect(ray, b));
+    objects.insert(a.object);
+    std::size_t different = 0;
+    for (std::size_t k = 0; k < sizeof(Surface); ++k)
+      different += reinterpret_cast<const unsigned char*>(&a)[k] !=
+                   reinterpret_cast<const unsigned char*>(&b)[k];
+    INFO(scene->object(a.object).shape);
+    REQUIRE(different < alignof(Surface));
+  }
+  CHECK(objects.size() > 5);
 }
 
 TEST_CASE("an empty scene renders black and says so", "[scene]") {

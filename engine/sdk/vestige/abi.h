@@ -19,6 +19,8 @@ extern "C" struct VestigeError {
 /// Parameter::isNonlinear; Footprint::alongMajor.
 /// SDK 3: SceneView::opacity(); lights are chosen by place: Light::extent(), chooseLight() and
 /// lightChance() of a point.
+/// SDK 4: SceneView's intersect() and shade() fill in place, so does lastSurface();
+/// Light::isDrawn(); an InputBuffer is not initialised.
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended
@@ -38,7 +40,7 @@ extern "C" struct VestigePlugin {
 namespace vestige {
 
 inline constexpr std::uint64_t kPluginMagic = 0x3145474954534556;  ///< "VESTIGE1", little endian
-inline constexpr std::uint32_t kSdkMajor = 3, kSdkMinor = 0;
+inline constexpr std::uint32_t kSdkMajor = 4, kSdkMinor = 0;
 
 /// Bits of VestigePlugin::lacks: methods that the plugin's class leaves as its interface has them.
 inline constexpr std::uint32_t kLacksSampleDerivatives = 1, kLacksLogGradient = 2;

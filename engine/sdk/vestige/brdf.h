@@ -42,7 +42,8 @@ struct ScatterSample {
   Rgb weight;       ///< f |cos| / pdf, dimensionless, finite, >= 0, without etaScale
   Real pdf;         ///< 1/sr, > 0, of the whole BRDF at toNext; unused if specular
   Real lobePdf;     ///< 1/sr, of the drawn lobe alone
-  Real lobeChance;  ///< (0,1], probability of drawing this lobe: fewer paths are like this one
+  Real lobeChance;  ///< (0,1], probability of drawing this lobe: fewer paths are like this one; 1
+                    ///< where sample() never draws anything else, nor nothing
   int lobe;         ///< which one it was; differences are taken only within one lobe
   bool specular;    ///< no new random variable (mirror, smooth glass); then weight = f |cos| /
                     ///< lobeChance

@@ -82,8 +82,8 @@ class Light {
   virtual bool isInfinite() const noexcept { return false; }
 
   /// Whether rays are drawn towards it (next-event estimation). False: it is left to the rays that
-  /// scattering draws, which find it as well: light that comes evenly from all around. Not for
-  /// delta lights.
+  /// scattering draws, which find it as well: light that comes evenly from all around. Delta
+  /// lights are drawn whatever they say.
   virtual bool isDrawn() const noexcept { return true; }
 
   /// The extent of the finite part of the scene, told once before rendering. [main thread]

@@ -187,10 +187,11 @@ struct Frame {
   }
   /// The frame around unit n whose s lies nearest to `along`; around(n) where that says nothing.
   static Frame along(Vec3 n, Vec3 along) noexcept {
-    const Vec3 s = along - dot(along, n) * n;
-    const Real l = length(s);
-    if (!(l > Real(1e-6) * length(along)) || !(l > 0)) return around(n);
-    return {s / l, cross(n, s / l), n};
+    const Vec3 across = along - dot(along, n) * n;
+    const Real l2 = lengthSquared(across);
+    if (!(l2 > Real(1e-12) * lengthSquared(along)) || !(l2 > 0)) return around(n);
+    const Vec3 s = across / std::sqrt(l2);
+    return {s, cross(n, s), n};
   }
   Vec3 toWorld(Vec3 v) const noexcept { return v.x * s + v.y * t + v.z * n; }
   Vec3 toLocal(Vec3 v) const noexcept { return {dot(v, s), dot(v, t), dot(v, n)}; }
