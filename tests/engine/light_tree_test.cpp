@@ -17,7 +17,7 @@ class Lamp final : public Light {
   Lamp(Vec3 location, Real watts, Vec3 axis = {0, 0, 1}, Real reach = kPi)
       : location_(location), axis_(axis), watts_(watts), reach_(reach) {}
 
-  bool isDelta() const noexcept override { return true; }
+  bool isDelta() const noexcept override { return isWanted; }  // a delta light is always drawn
   std::optional<LightSample> sample(Vec3, Vec2) const noexcept override { return std::nullopt; }
   Real pdf(const LightHit&) const noexcept override { return 0; }
   Rgb eval(const LightHit&) const noexcept override { return {}; }
