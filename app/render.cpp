@@ -30,7 +30,13 @@ RenderResult renderFilm(const RenderRequest& r, Scene& scene, Film& film) {
   RenderOptions options = r.render;
   options.cancel = &catchInterrupts();
   options.progress = [&](const Progress& p) { report.show(p); };
-  return render(scene, film, options);
+  options.warn = [&](const std::string& sentence) { report.clear(), warn(sentence); };
+  try {
+    return render(scene, film, options);
+  } catch (const std::runtime_error& e) {  // the integrator cannot prepare
+    report.clear();
+    throw Failure(kMachineFailed, e.what());
+  }
 }
 
 void warnAboutCounters(const Counters& c) {

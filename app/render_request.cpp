@@ -13,13 +13,17 @@ namespace {
 
 constexpr int kMaxSide = 65536;       // pixels
 constexpr double kLeastNoise = 1e-4;  // already more than a million samples for most pixels
-constexpr Aov kAovs[] = {Aov::normal,  Aov::albedo,    Aov::depth,           Aov::position, Aov::uv,
-                         Aov::samples, Aov::footprint, Aov::footprintTexels, Aov::gradient};
+
+std::vector<std::string> aovNames() {
+  std::vector<std::string> names;
+  for (int i = 0; i < kAovs; ++i) names.emplace_back(name(Aov(i)));
+  return names;
+}
 
 std::vector<Aov> parseAovs(const std::string& text) {
   std::vector<Aov> wanted;
-  std::vector<std::string> known = {"all"};
-  for (const Aov aov : kAovs) known.push_back(name(aov));
+  std::vector<std::string> known = aovNames();
+  known.insert(known.begin(), "all");
   for (const std::string& word : CLI::detail::split(text, ',')) {
     const auto found = std::find(known.begin(), known.end(), word);
     if (found == known.end()) {
@@ -29,9 +33,9 @@ std::vector<Aov> parseAovs(const std::string& text) {
                                 near.empty() ? fmt::format("it knows {}", fmt::join(known, ", "))
                                              : fmt::format("did you mean '{}'?", near)));
     }
-    for (const Aov aov : kAovs)
-      if ((word == "all" || word == name(aov)) &&
-          std::find(wanted.begin(), wanted.end(), aov) == wanted.end())
+    for (int i = 0; i < kAovs; ++i)
+      if (const Aov aov = Aov(i); (word == "all" || word == name(aov)) &&
+                                  std::find(wanted.begin(), wanted.end(), aov) == wanted.end())
         wanted.push_back(aov);
   }
   return wanted;
@@ -99,9 +103,7 @@ void addPicture(CLI::App& command, RenderRequest& r) {
   const auto aov = [&](const std::string& text) { r.aovs = parseAovs(text); };
   command
       .add_option_function<std::string>(
-          "--aov", aov,
-          "further channels: normal,albedo,depth,position,uv,samples,footprint,"
-          "footprint.texels,gradient or all")
+          "--aov", aov, fmt::format("further channels: {} or all", fmt::join(aovNames(), ",")))
       ->take_last()
       ->type_name("LIST")
       ->group(group);

@@ -28,6 +28,8 @@ const Layer& layer(Aov aov) noexcept {
       {"footprint", {"footprint"}},
       {"footprint.texels", {"footprint.texels"}},
       {"gradient", {"gradient"}},
+      {"element.level", {"element.level"}},
+      {"element.id", {"element.id"}},
   };
   return layers[int(aov)];
 }
@@ -70,6 +72,10 @@ int values(Aov aov, const Aovs& from, Real out[3]) noexcept {
       return one(from.footprintTexels);
     case Aov::gradient:
       return one(from.gradient);
+    case Aov::elementLevel:
+      return one(from.elementLevel);
+    case Aov::elementId:
+      return one(from.elementId);
   }
   return 0;
 }

@@ -23,8 +23,11 @@ enum class Aov {
   samples,
   footprint,
   footprintTexels,
-  gradient
+  gradient,
+  elementLevel,
+  elementId
 };
+inline constexpr int kAovs = int(Aov::elementId) + 1;
 /// "normal", "footprint.texels", ...
 const char* name(Aov aov) noexcept;
 

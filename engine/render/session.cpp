@@ -47,7 +47,7 @@ struct Job {
   PixelFilterSampler filter;
   std::uint32_t seed;
   std::uint64_t declaredSamples;
-  bool wantsFootprint;
+  bool wantsFootprint, wantsJacobian;
   int tilesX, tilesY;
   const Adaptive* adaptive;  ///< null: all pixels alike
 
@@ -86,7 +86,7 @@ void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& co
   Aovs aovs;
   ++counters.paths;
   const auto start = cameraRay(job.camera, job.filter, sampler, x, y, job.film.width(),
-                               job.film.height(), job.wantsFootprint || job.scene.usesFootprints());
+                               job.film.height(), job.wantsJacobian);
   if (!start) return job.film.add(x, y, {}, aovs, counters);
   PathContext context{.scene = job.scene,
                       .sampler = sampler,
@@ -242,21 +242,25 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
     report(share, 0, "preparing");
     return !cancelled();
   };
-  if (!scene.integrator().prepare({scene.view(), options.seed, threads, preparing}))
-    result.end = RenderEnd::cancelled;
+  Preparation preparation{scene.view(), options.seed, threads, preparing};
+  preparation.seconds = options.seconds;
+  if (options.warn) preparation.warn = options.warn;
+  if (!scene.integrator().prepare(preparation)) result.end = RenderEnd::cancelled;
 
   const Crop crop = film.crop();
-  const Job job{scene.view(),
-                scene.camera(),
-                scene.integrator(),
-                film,
-                PixelFilterSampler(scene.film().filter),
-                options.seed,
-                adaptive ? 0 : std::uint64_t(wanted),
-                film.wantsFootprint(),
-                (crop.x1 - crop.x0 + kTile - 1) / kTile,
-                (crop.y1 - crop.y0 + kTile - 1) / kTile,
-                adaptive ? &*adaptive : nullptr};
+  const Job job{
+      scene.view(),
+      scene.camera(),
+      scene.integrator(),
+      film,
+      PixelFilterSampler(scene.film().filter),
+      options.seed,
+      adaptive ? 0 : std::uint64_t(wanted),
+      film.wantsFootprint(),
+      film.wantsFootprint() || scene.view().usesFootprints() || scene.integrator().usesJacobian(),
+      (crop.x1 - crop.x0 + kTile - 1) / kTile,
+      (crop.y1 - crop.y0 + kTile - 1) / kTile,
+      adaptive ? &*adaptive : nullptr};
   double farthest = 0;  // what is still to come by the noise is a guess; the bar shall not go back
   const auto shareOf = [&](double samples) {
     if (!adaptive) return wanted > 0 ? samples / wanted : 0.0;

@@ -35,6 +35,8 @@ struct RenderOptions {
   const std::atomic<bool>* cancel = nullptr;  ///< set by a signal handler or a window
   std::function<void(const Progress&)> progress =
       nullptr;  ///< on the calling thread, a few times a second
+  /// Of what the integrator has to say to the user, on the calling thread; null: nobody listens.
+  std::function<void(const std::string&)> warn = nullptr;
 };
 
 enum class RenderEnd { finished, timeUp, cancelled };
@@ -56,6 +58,7 @@ Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
               std::vector<Aov> aovs);
 
 /// Adds samples to the film until done, out of time or cancelled. Whatever was finished stays.
+/// Throws std::runtime_error with a sentence for the user where the integrator cannot prepare.
 RenderResult render(Scene& scene, Film& film, const RenderOptions& options);
 
 /// Traces one sample of one pixel of a film of that size, as render() would, and tells its path to

@@ -291,6 +291,14 @@ void SceneBuilder::addIntegrator() {
     value.kind = Value::Kind::block, value.block = std::move(footprint);
     wanted.settings.push_back({"footprint", value, {}});
   }
+  for (const auto& [word, value] : options_.settings) {
+    if (schema && schema->find(word))
+      wanted.settings.push_back({word, value, {}});
+    else
+      diagnostics_.error(wanted.span,
+                         fmt::format("integrator {} has no '{}', which the command line asks for",
+                                     wanted.plugin, word));
+  }
   impl_.integrator = create<Integrator>(wanted);
   impl_.integratorName = wanted.plugin;
 }

@@ -3,6 +3,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vestige/camera.h>
@@ -52,6 +53,8 @@ class Scene {
 struct BuildOptions {
   std::string integrator = {};  ///< replaces the scene's own by name; "": the scene's, or `path`
   std::string footprint = {};   ///< bound that replaces the integrator's; "": the scene's
+  /// Further settings of the integrator, as the scene would have written them; by name.
+  std::vector<std::pair<std::string, Value>> settings = {};
   std::size_t textureMemory = TextureStore::kDefaultBudget;  ///< bytes, see TextureStore
 };
 

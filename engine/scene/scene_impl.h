@@ -63,6 +63,9 @@ struct Scene::Impl final : SceneView {
   Vec2 texels(const Surface& s) const noexcept override { return material(s).texels(); }
   Bounds bounds() const noexcept override { return world.bounds(); }
   std::span<const Patch> patches() const noexcept override { return world.patches(); }
+  SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept override {
+    return world.patchPoint(patch, uv);
+  }
   Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept override {
     return world.patchArea(patch, low, high);
   }

@@ -26,8 +26,8 @@ constexpr double kNodes[4] = {0.1834346424956498, 0.5255324099163290, 0.79666647
                               0.9602898564975363};
 constexpr double kWeights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                 0.1012285362903763};
-/// Panels along each side: the area element of a squashed sphere is smooth but steep.
-constexpr int kPanels = 4;
+/// Panels along each side of a face: the area element of a squashed sphere is smooth but steep.
+constexpr double kPanels = 4;
 
 /// Integral of |dP/du x dP/dv| and of the normal over a part of a face, world.
 struct Integral {
@@ -37,8 +37,9 @@ struct Integral {
 
 template <class Visit>
 void quadrature(double low, double high, Visit visit) noexcept {
-  const double h = (high - low) / kPanels / 2;
-  for (int p = 0; p < kPanels; ++p)
+  const int panels = std::max(1, int(std::ceil(kPanels * (high - low))));
+  const double h = (high - low) / panels / 2;
+  for (int p = 0; p < panels; ++p)
     for (int k = 0; k < 8; ++k) {
       const double x = k < 4 ? -kNodes[k] : kNodes[k - 4];
       visit(low + h * (2 * p + 1 + x), h * kWeights[k % 4]);
@@ -128,6 +129,22 @@ std::span<const Patch> Patches::all() const noexcept {
 
 int Patches::owner(int patch) const noexcept {
   return int(std::upper_bound(first_.begin(), first_.end(), patch) - first_.begin()) - 1;
+}
+
+SurfacePoint Patches::point(int patch, Vec2 uv) const noexcept {
+  const int k = owner(patch);
+  const Item& item = (*items_)[std::size_t(k)];
+  const int part = patch - first_[std::size_t(k)];
+  if (item.triangles) {
+    SurfacePoint s;
+    item.triangles->at(std::uint32_t(part), uv, s);
+    return item.baked ? s : item.place.world(s);
+  }
+  if (!item.bounds.isInfinite()) return item.place.world(item.placement.shape->at(uv, part));
+  SurfacePoint s = item.place.world(item.placement.shape->surface({}, 0));
+  s.position += (uv.x - s.uv.x) * s.dPdu + (uv.y - s.uv.y) * s.dPdv;
+  s.uv = uv;
+  return s;
 }
 
 Real Patches::area(int patch, Vec2 low, Vec2 high) const noexcept {

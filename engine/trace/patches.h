@@ -16,6 +16,8 @@ class Patches {
   int index(int item, int primitive) const noexcept;
 
   std::span<const Patch> all() const noexcept;
+  /// The surface at patchUv, world.
+  SurfacePoint point(int patch, Vec2 uv) const noexcept;
   /// World area of [low, high] of a patch's uv square: exact for triangles, by quadrature else.
   Real area(int patch, Vec2 low, Vec2 high) const noexcept;
 

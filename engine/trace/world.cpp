@@ -145,6 +145,9 @@ std::size_t World::triangles() const noexcept { return impl_->triangles; }
 const std::vector<Placement>& World::placements() const noexcept { return impl_->placements; }
 Bounds World::bounds() const noexcept { return impl_->bounds; }
 std::span<const Patch> World::patches() const noexcept { return impl_->patches.all(); }
+SurfacePoint World::patchPoint(int patch, Vec2 uv) const noexcept {
+  return impl_->patches.point(patch, uv);
+}
 Real World::patchArea(int patch, Vec2 low, Vec2 high) const noexcept {
   return impl_->patches.area(patch, low, high);
 }

@@ -53,6 +53,7 @@ class World {
   Bounds bounds() const noexcept;
 
   std::span<const Patch> patches() const noexcept;
+  SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept;
   Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept;
 
   std::size_t triangles() const noexcept;  ///< without instances

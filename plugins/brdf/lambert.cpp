@@ -46,6 +46,8 @@ class Lambert final : public Brdf {
     return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
   }
 
+  Rgb diffuse(const ScatterPoint& p) const noexcept override { return p.inputs.rgb(kDiffuse); }
+
   LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
 };
 

@@ -21,6 +21,8 @@ extern "C" struct VestigeError {
 /// lightChance() of a point.
 /// SDK 4: SceneView's intersect() and shade() fill in place, so does lastSurface();
 /// Light::isDrawn(); an InputBuffer is not initialised.
+/// SDK 5: Brdf::diffuse(); SceneView::patchPoint(); Preparation has a time and warnings; Aovs of
+/// elements; Integrator::usesJacobian().
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended
@@ -40,7 +42,7 @@ extern "C" struct VestigePlugin {
 namespace vestige {
 
 inline constexpr std::uint64_t kPluginMagic = 0x3145474954534556;  ///< "VESTIGE1", little endian
-inline constexpr std::uint32_t kSdkMajor = 4, kSdkMinor = 0;
+inline constexpr std::uint32_t kSdkMajor = 5, kSdkMinor = 0;
 
 /// Bits of VestigePlugin::lacks: methods that the plugin's class leaves as its interface has them.
 inline constexpr std::uint32_t kLacksSampleDerivatives = 1, kLacksLogGradient = 2;

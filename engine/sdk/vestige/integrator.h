@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 
 #include <vestige/brdf.h>
 #include <vestige/camera.h>
@@ -122,6 +123,8 @@ class SceneView {
 
   /// All surfaces as patches with true areas.
   virtual std::span<const Patch> patches() const noexcept = 0;
+  /// The surface of a patch at patchUv, world.
+  virtual SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept = 0;
   /// Area of the part [low, high] of a patch's uv square (of its triangle: where u + v <= 1).
   virtual Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept = 0;
 };
@@ -209,6 +212,9 @@ struct Aovs {
   /// Where the first scattering happens that is not specular: side of the square that has the
   /// footprint's area, in scene units and in texels; after it, the largest |g_j|.
   Real footprint{}, footprintTexels{}, gradient{};
+  /// Element of a radiosity solution seen: how often its patch was divided (below 0: a cluster of
+  /// patches), and a whole number that tells it from its neighbours.
+  Real elementLevel{}, elementId{};
 };
 
 /// What one thread counted.
@@ -267,17 +273,24 @@ struct Preparation {
   int threads;
   /// Share done in [0,1]; returns false when the user cancelled.
   std::function<bool(double)> progress;
+  double seconds = 0;  ///< that preparing and rendering may take together; 0: no limit
+  /// A sentence that the user should read.
+  std::function<void(const std::string&)> warn = [](const std::string&) {};
 };
 
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Once before the first estimate(): particles, caches. False if cancelled.
+  /// Once before the first estimate(): particles, caches. False if cancelled. Throws
+  /// std::runtime_error with a sentence for the user where that cannot be.
   virtual bool prepare(const Preparation&) { return true; }
 
   /// Radiance along context.ray: one sample of the pixel's integral.
   virtual Rgb estimate(PathContext& context) const noexcept = 0;
+
+  /// Whether estimate() needs PathContext::jacobian though nothing is looked up over a footprint.
+  virtual bool usesJacobian() const noexcept { return false; }
 
   /// What the scene or the integrator says about samples a pixel; 0: nothing.
   virtual int samples() const noexcept { return 0; }

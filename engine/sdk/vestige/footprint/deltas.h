@@ -28,6 +28,9 @@ struct DeltaPolicy {
   Real limit = kInfinity;
   Real scale = 1;     ///< multiplies the bound
   Real exponent = 0;  ///< replaces that of global (1/M) or safe (2/3); 0: as it is
+  /// Numbers that global counts at least. Particles of two numbers: with 1/2 no element would ever
+  /// get more of them than one, however many there are; with 1/3 it does [MATH 4].
+  int fewest = 1;
 };
 
 /// Of the n-th of samples: n^(-2/3). Those that share two numbers, the film's, lie scattered over
@@ -79,8 +82,9 @@ inline Real commonDelta(const DeltaPolicy& policy, const PathCount& count) noexc
       delta = 1 / std::sqrt(count.total());
       break;
     case Bound::global: {
-      const Real e =
-          policy.exponent > 0 ? policy.exponent : Real(1) / Real(std::max(1, count.variables()));
+      const Real e = policy.exponent > 0
+                         ? policy.exponent
+                         : Real(1) / Real(std::max(policy.fewest, count.variables()));
       delta = std::pow(count.effective(), -e);
       break;
     }

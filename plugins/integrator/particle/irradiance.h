@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the flux in the elements to an irradiance everywhere: push, then a balanced subdivision with
+// a value at each vertex, shared by all elements and patches that meet there, so that nothing jumps
+// and nothing cracks.
+//
+// E(x) = sum over the elements a that hold x, from the largest cluster down, of flux_a / area_a.
+#pragma once
+#include <unordered_map>
+#include <vector>
+
+#include "hierarchy.h"
+
+namespace vestige::particle {
+
+/// What the picture shows of an element.
+struct ElementInfo {
+  int level = 0;         ///< divisions below its patch; where the picture has more, those flux made
+  std::uint32_t id = 0;  ///< 24 bits; neighbours differ
+};
+
+class Irradiance {
+ public:
+  Irradiance() = default;
+  /// `scale`: W/m^2 of one unit of flux on one unit of area.
+  Irradiance(const SceneView& scene, const Hierarchy& hierarchy, double scale);
+
+  /// Whether there is anything to say; if not, light has to be found otherwise.
+  bool covers(const Place& p) const noexcept;
+  /// W/m^2, blended between vertices; constant on each element if not `smooth`. [any thread]
+  Rgb at(const Place& p, bool smooth) const noexcept;
+  ElementInfo element(const Place& p) const noexcept;
+
+  std::size_t leaves() const noexcept { return leaves_; }
+
+ private:
+  struct Node {
+    std::uint32_t children = 0;  ///< the first of four; 0: a leaf
+    std::uint32_t vertices[4] = {};
+    Rgb e;
+    std::int8_t level = 0;
+    bool isAdded = false;  ///< by balancing
+  };
+  struct Leaf {
+    std::uint32_t node, root;
+    Cell cell;
+    int depth;
+  };
+  struct Vertex {
+    Vec3 position, normal;
+    Rgb sum;
+    int count = 0;
+    std::uint32_t next = 0;  ///< in the same cell of the grid
+  };
+  struct Hanging {
+    std::uint32_t middle, a, b;
+    Real length;
+  };
+  class Build;
+
+  struct Found {
+    const Node* node;
+    Vec2 local;
+    std::uint32_t path;
+  };
+  Found find(const Place& p) const noexcept;
+
+  const Hierarchy* hierarchy_ = nullptr;
+  std::vector<std::uint32_t> roots_;  ///< by element id of the root; 0: dark
+  std::vector<Node> nodes_;
+  std::vector<Rgb> values_;  ///< by vertex
+  std::size_t leaves_ = 0;
+};
+
+}  // namespace vestige::particle

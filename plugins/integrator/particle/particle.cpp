@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hierarchical radiosity by particles, with their footprints as refinement oracle: light is left on
+// matt surfaces before the picture, and seen there; what is glossy or specular is found by rays
+// from the eye.
+//
+// [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001. Sec. 4.2, Fig. 4
+#include <vestige/path_report.h>
+#include <vestige/plugin.h>
+
+#include <chrono>
+#include <memory>
+
+#include "glossy_part.h"
+#include "irradiance.h"
+#include "solution_file.h"
+
+namespace vestige::particle {
+namespace {
+
+/// Particles between two looks at the clock, at memory, at the user. Part of the result where
+/// elements are judged between passes.
+constexpr std::uint64_t kPass = 16384;
+/// Of `--time`, for particles; the rest is the picture's.
+constexpr double kShareOfTime = 0.5;
+/// Roulette on eye paths starts with this scattering.
+constexpr int kRouletteFrom = 4;
+constexpr Real kMaxSurvival = Real(0.95);
+constexpr int kMaxLayers = 64;
+/// Side of the smallest element, in diameters of the scene, unless the scene says.
+constexpr Real kSmallest = Real(2e-4);
+
+/// What is left of the light where an edge of an element is drawn.
+constexpr Real kWire = Real(0.3);
+
+enum class Show { smooth, elements, gather };
+
+/// N_eff^-1/M, at least 1/3, and the limit without which caustics nearly vanish [PD01 4.2].
+FootprintSettings particleDefaults() {
+  FootprintSettings s;
+  s.deltas.bound = Bound::global, s.deltas.limit = kDefaultLimit;
+  return s;
+}
+
+double now() {
+  using namespace std::chrono;
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+std::vector<std::string> splitAtCommas(const std::string& text) {
+  std::vector<std::string> all;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    if (comma > at) all.push_back(text.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return all;
+}
+
+class ParticleIntegrator final : public Integrator {
+ public:
+  enum Param {
+    kParticles,
+    kPart,
+    kParts,
+    kSamples,
+    kDepth,
+    kOracle,
+    kLevel,
+    kArea,
+    kClusters,
+    kMinArea,
+    kMaxLevel,
+    kMemory,
+    kShow,
+    kGlossy,
+    kWires,
+    kFootprint,
+    kSave,
+    kLoad
+  };
+
+  static Schema schema() {
+    return {
+        .kind = "integrator",
+        .name = "particle",
+        .summary =
+            "hierarchical radiosity by particles; footprints decide how fine (Suykens and "
+            "Willems, 4.2)",
+        .params = {
+            integer("particles", 400000).range(1, 4'000'000'000).doc("from all lights together"),
+            integer("part", 1).range(1, 4096).doc("which of the `parts` of the particles to send"),
+            integer("parts", 1).range(1, 4096).doc("add their solutions: the same to the bit"),
+            integer("samples", 16).range(1, 1 << 24).doc("eye paths a pixel"),
+            integer("depth", 16).range(1, 4096).doc("longest eye path in edges"),
+            choice("oracle", {"footprint", "variance", "uniform"})
+                .doc("what decides how fine elements are: the particle's footprint; where hits "
+                     "vary; or everywhere `level`"),
+            integer("level", 5).range(0, 14).doc("divisions of every patch, with oracle uniform"),
+            choice("area", {"covariance", "polygon"})
+                .unset()
+                .doc("of a footprint: of its ellipse, or exactly of the polygon (with footprint "
+                     "paper)"),
+            boolean("clusters", true).doc("wide footprints may land on several patches at once"),
+            real("min_area", 0)
+                .unset()
+                .range(0, 1e12)
+                .in("scene units^2")
+                .doc("of the smallest element (a square of 1/5000 of the scene's diameter)"),
+            integer("max_level", 12).range(0, 20).doc("most divisions of a patch"),
+            integer("memory", 1024)
+                .range(1, 1 << 20)
+                .in("MiB")
+                .doc("for elements; once it is used up they are divided no more"),
+            choice("show", {"smooth", "elements", "gather"})
+                .doc("irradiance blended between vertices; constant on each element; or light "
+                     "gathered by rays from what the eye sees"),
+            boolean("glossy", true)
+                .doc("whether rays find what is glossy or specular; if not it is black, as in the "
+                     "paper's figure"),
+            boolean("wires", false).doc("draws the elements' edges"),
+            block("footprint", "footprint").doc("of particles (global, with limit 0.7)"),
+            text("save_solution", "")
+                .doc("file for the solution, to be seen again without particles"),
+            text("load_solution", "")
+                .doc(
+                    "files, separated by commas, that are added up instead of sending particles")}};
+  }
+
+  explicit ParticleIntegrator(const Values& v)
+      : particles_(std::uint64_t(v.integer(kParticles))),
+        part_(std::uint64_t(v.integer(kPart))),
+        parts_(std::uint64_t(v.integer(kParts))),
+        samples_(int(v.integer(kSamples))),
+        depth_(int(v.integer(kDepth))),
+        show_(v.text(kShow) == "gather"     ? Show::gather
+              : v.text(kShow) == "elements" ? Show::elements
+                                            : Show::smooth),
+        glossy_(v.flag(kGlossy)),
+        wires_(v.flag(kWires)),
+        footprint_(footprintSettings(v.block(kFootprint), Bound::global, particleDefaults())),
+        save_(v.text(kSave)),
+        load_(splitAtCommas(v.text(kLoad))) {
+    if (part_ > parts_) throw PluginError(kPart, "part is one of 1 to parts");
+    footprint_.deltas.fewest = 3;
+    const bool isPaper = footprint_.shape == RegionShape::representative;
+    area_ = (v.has(kArea) ? v.text(kArea) == "polygon" : isPaper) ? FootprintArea::polygon
+                                                                  : FootprintArea::covariance;
+    const std::string& oracle = v.text(kOracle);
+    elements_.oracle = oracle == "variance"  ? Oracle::variance
+                       : oracle == "uniform" ? Oracle::uniform
+                                             : Oracle::footprint;
+    elements_.clusters = v.flag(kClusters);
+    elements_.maxLevel = int(v.integer(elements_.oracle == Oracle::uniform ? kLevel : kMaxLevel));
+    elements_.minArea = v.has(kMinArea) ? v.real(kMinArea) : Real(-1);
+    elements_.memory = std::size_t(v.integer(kMemory)) << 20;
+  }
+
+  int samples() const noexcept override { return samples_; }
+
+  bool usesJacobian() const noexcept override { return wires_; }
+
+  bool prepare(const Preparation& p) override {
+    if (!save_.empty()) checkSolutionFile(save_);
+    HierarchySettings settings = elements_;
+    const Bounds b = p.scene.bounds();
+    if (settings.minArea < 0)
+      settings.minArea = b.isEmpty() ? Real(0) : sqr(kSmallest * length(b.size()));
+    irradiance_ = {};
+    hierarchy_ = std::make_unique<Hierarchy>(p.scene, settings);
+    Booking booking;
+    SolutionKey key{fingerprint(p.scene, *hierarchy_), 0, 0};
+    for (const std::string& file : load_) addSolution(file, key, booking, *hierarchy_);
+    bool goesOn = true;
+    if (load_.empty()) {
+      key.particles = particles_, key.power = totalPower(p.scene);
+      if (key.power > 0) goesOn = send(p, key.power, booking);
+    }
+    if (!save_.empty()) {
+      saveSolution(save_, key, booking, *hierarchy_);
+      if (!goesOn) p.warn("saved the solution of the particles sent so far as '" + save_ + "'");
+    }
+    if (!goesOn) return false;
+    if (booking.particles > 0)
+      irradiance_ =
+          Irradiance(p.scene, *hierarchy_, key.power * kFluxUnit / double(booking.particles));
+    return true;
+  }
+
+  Rgb estimate(PathContext& context) const noexcept override {
+    if (!carriesFootprint(context, FootprintSettings{})) return follow(context, nullptr);
+    PathFootprint<> footprint;
+    footprint.begin(context, FootprintSettings{});
+    return follow(context, &footprint);
+  }
+
+ private:
+  /// False if the user stopped it.
+  bool send(const Preparation& p, double power, Booking& booking) {
+    const Shooting shooting{p.scene, *hierarchy_, footprint_, area_, particles_, p.seed, power};
+    const std::uint64_t first = particles_ * (part_ - 1) / parts_,
+                        last = particles_ * part_ / parts_;
+    const double start = now();
+    for (std::uint64_t at = first; at < last; at += kPass) {
+      shooting.pass(at, std::min(at + kPass, last), p.threads, booking);
+      if (hierarchy_->pause())
+        p.warn(
+            "the elements fill their memory: from here on none is divided further (see memory "
+            "of integrator particle)");
+      if (!p.progress(double(at - first) / double(last - first))) return false;
+      if (p.seconds > 0 && now() - start > kShareOfTime * p.seconds) break;
+    }
+    return true;
+  }
+
+  /// An eye path: to the first matt surface, and through everything else.
+  Rgb follow(PathContext& c, PathFootprint<>* footprint) const noexcept {
+    const Real size = sizeOf(c.scene);
+    Ray ray = c.ray;
+    DrawnRay drawn{c.ray.origin};
+    Rgb radiance, throughput{1, 1, 1}, flux{1, 1, 1};
+    PathReport report(c);
+    bool gathers = show_ == Show::gather;
+    Surface s;
+    InputBuffer inputs;
+    Interaction x;
+    for (int edge = 1, layer = 0; edge <= depth_;) {
+      ++c.counters.rays;
+      if (!c.scene.intersect(ray, s)) {
+        report.gone("escape", ray.direction, throughput);
+        return radiance + throughput * filteredBackground(c.scene, drawn, ray.direction, footprint);
+      }
+      if (footprint) footprint->arrive(s, size);
+      radiance += throughput * metLight(c.scene, s, drawn);
+      c.scene.shade(s, -ray.direction, regionAt(c.scene, s, footprint), inputs, x);
+      const auto vertex = std::uint32_t(edge - 1);
+      if (x.opacity < 1) {
+        const std::uint32_t dim = dimension::vertex(vertex) + dimension::kOpacity;
+        const bool stays = c.sampler.number(dim + 0x10000u * std::uint32_t(layer)) < x.opacity;
+        if (footprint) footprint->chance(stays ? x.opacity : 1 - x.opacity);
+        if (!stays && ++layer < kMaxLayers) {
+          report.end(s, x.toPrev, throughput, "pass", footprint);
+          ray = spawnRay(s, ray.direction);
+          continue;
+        }
+      }
+      layer = 0;
+      const Place place = placeOf(s, x.toPrev);
+      if (edge == 1 && c.aovs) tellFirst(*c.aovs, s, x, place);
+      if (!x.brdf || edge == depth_) break;
+
+      const Rgb diffuse = x.brdf->diffuse(x.point);
+      const bool isMatt = !isBlack(diffuse) && irradiance_.covers(place);
+      const Brdf* const whole = x.brdf;
+      const GlossyPart rest(*whole, diffuse);
+      if (isMatt && !gathers) {
+        const Rgb e = irradiance_.at(place, show_ != Show::elements);
+        radiance += wired(c, edge, place) * throughput * (diffuse / kPi) * e;
+        x.brdf = &rest;
+      }
+      if (!glossy_ && !(isMatt && gathers)) break;
+      if (isMatt) gathers = false;
+      radiance += throughput * directLight(c, s, x, vertex, c.sampler.index());
+      const std::uint32_t dim = dimension::vertex(vertex);
+      const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe),
+                                   c.sampler.pair(dim + dimension::kDirection)};
+      const std::optional<Scatter> next = drawScatter(x, numbers);
+      if (edge == 1 && c.aovs && next) c.aovs->albedo = next->local.weight;
+      if (!next || isBlack(next->weight)) break;
+      report.scatter(s, x.toPrev, throughput, *next, footprint);
+      throughput *= next->weight, flux *= next->local.weight;
+      drawn = {s.position, next->local.specular ? kInfinity : next->local.pdf};
+      if (edge >= kRouletteFrom) {
+        const Real survival = std::min(kMaxSurvival, std::sqrt(std::abs(maxComponent(flux))));
+        if (!(c.sampler.number(dim + dimension::kRoulette) < survival)) break;
+        throughput = throughput / survival, flux = flux / survival;
+        if (footprint) footprint->chance(survival);
+      }
+      if (footprint) footprint->scatter(s, x, *next, numbers);
+      report.left(footprint);
+      ray = spawnRay(s, next->toNext);
+      ++edge;
+    }
+    return radiance;
+  }
+
+  void tellFirst(Aovs& aovs, const Surface& s, const Interaction& x,
+                 const Place& place) const noexcept {
+    writeAovs(aovs, s, x);
+    const ElementInfo e = irradiance_.element(place);
+    aovs.elementLevel = Real(e.level), aovs.elementId = Real(e.id);
+  }
+
+  /// Dark where another element lies one pixel further.
+  Real wired(PathContext& c, int edge, const Place& place) const noexcept {
+    if (!wires_ || edge > 1) return 1;
+    const std::uint32_t own = irradiance_.element(place).id;
+    for (const std::size_t j : {0, 1}) {
+      const Ray beside{c.ray.origin + c.jacobian.dOrigin[j],
+                       normalize(c.ray.direction + c.jacobian.dDirection[j]), 0, kInfinity};
+      Surface s;
+      ++c.counters.rays;
+      if (!c.scene.intersect(beside, s) ||
+          irradiance_.element(placeOf(s, -beside.direction)).id != own)
+        return kWire;
+    }
+    return 1;
+  }
+
+  std::uint64_t particles_, part_, parts_;
+  int samples_, depth_;
+  HierarchySettings elements_;
+  FootprintArea area_ = FootprintArea::covariance;
+  Show show_;
+  bool glossy_, wires_;
+  FootprintSettings footprint_;
+  std::string save_;
+  std::vector<std::string> load_;
+  std::unique_ptr<Hierarchy> hierarchy_;
+  Irradiance irradiance_;
+};
+
+}  // namespace
+}  // namespace vestige::particle
+
+VESTIGE_PLUGIN(vestige::Integrator, vestige::particle::ParticleIntegrator)

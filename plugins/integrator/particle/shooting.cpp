@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shooting.h"
+
+#include <thread>
+
+namespace vestige::particle {
+namespace {
+
+/// Dimensions of a particle's numbers: a point of a light, a direction, which light; then as paths.
+constexpr std::uint32_t kPoint = dimension::kFilm, kDirection = dimension::kLens,
+                        kLight = dimension::kTime;
+
+/// What a thread takes at once.
+constexpr std::uint64_t kBatch = 256;
+
+/// From this scattering on nobody survives for certain: a closed room of white walls ends too.
+constexpr int kMortalFrom = 16;
+constexpr Real kMaxSurvival = Real(0.95);
+/// Layers passed without scattering.
+constexpr int kMaxLayers = 64;
+
+void add(Flux& sum, const Flux& f, std::int64_t sign = 1) noexcept {
+  for (std::size_t c = 0; c < 3; ++c) sum[c] += sign * f[c];
+}
+
+/// Off the light's surface, so that rounding cannot meet it again.
+Ray start(const Particle& p, Real size) noexcept {
+  const Real step = 8 * std::numeric_limits<float>::epsilon() * (maxAbsComponent(p.origin) + size);
+  const Real side = dot(p.direction, p.normal) < 0 ? Real(-1) : Real(1);
+  return {p.origin + side * step * p.normal, p.direction, 0, kInfinity};
+}
+
+/// What arrives, as the shading normal sees it: E of a bent surface is not E of the flat one.
+Real bending(const Interaction& x) noexcept {
+  const Real flat = std::abs(dot(x.toPrev, x.geometricNormal));
+  const Real bent = std::abs(dot(x.toPrev, x.frame.n));
+  return bent == flat ? 1 : std::min(bent / std::max(flat, Real(1e-6)), Real(100));
+}
+
+Real areaOf(const PathFootprint<>& f, FootprintArea kind) noexcept {
+  if (kind == FootprintArea::polygon) return f.area();
+  const Footprint region = f.footprint();
+  return length(cross(region.dP[0], region.dP[1]));
+}
+
+}  // namespace
+
+void Booking::add(const Booking& b) noexcept {
+  particle::add(emitted, b.emitted), particle::add(absorbed, b.absorbed);
+  particle::add(escaped, b.escaped), particle::add(lost, b.lost), particle::add(gained, b.gained);
+  particles += b.particles, hits += b.hits;
+}
+
+double totalPower(const SceneView& scene) noexcept {
+  double rgb[3] = {};
+  for (const Light* l : scene.lights()) {
+    const Rgb p = l->power();
+    rgb[0] += double(p.r), rgb[1] += double(p.g), rgb[2] += double(p.b);
+  }
+  return std::max({rgb[0], rgb[1], rgb[2]});
+}
+
+Flux Shooting::inUnits(Rgb watt) const noexcept {
+  const double scale = 1 / (power * kFluxUnit);
+  const auto rounded = [&](Real x) {
+    const double n = double(x) * scale;
+    return std::isfinite(n) ? std::int64_t(n + std::copysign(0.5, n)) : 0;
+  };
+  return {rounded(watt.r), rounded(watt.g), rounded(watt.b)};
+}
+
+void Shooting::pass(std::uint64_t first, std::uint64_t last, int threads, Booking& booking) const {
+  std::atomic<std::uint64_t> next{first};
+  std::mutex mutex;
+  const auto work = [&] {
+    Booking own;
+    for (std::uint64_t at; (at = next.fetch_add(kBatch)) < last;)
+      for (std::uint64_t i = at; i < std::min(at + kBatch, last); ++i)
+        shootOne(std::uint32_t(i), own);
+    const std::lock_guard lock(mutex);
+    booking.add(own);
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < threads; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& t : others) t.join();
+}
+
+void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
+  const Sampler sampler(0x70617274u, 0, index, seed);  // "part": no pixel has these numbers
+  ++booking.particles;
+  const auto choice = scene.chooseLight(sampler.number(kLight));
+  if (!choice) return;
+  const Light& light = *scene.lights()[std::size_t(choice->light)];
+  const EmissionNumbers u{sampler.pair(kPoint), sampler.pair(kDirection)};
+  const std::optional<Particle> particle = light.emit(u);
+  if (!particle) return;
+
+  const Real size = scene.bounds().isEmpty() ? Real(0) : length(scene.bounds().size());
+  Rgb power = particle->power / choice->chance;
+  Flux carried = inUnits(power);
+  add(booking.emitted, carried);
+  PathFootprint<> path;
+  path.begin(*particle, light.emissionDerivatives(u), index, particles, footprint);
+  path.chance(choice->chance);
+
+  Ray ray = start(*particle, size);
+  Surface s;
+  InputBuffer inputs;
+  Interaction x;
+  for (int bounce = 0, layer = 0;;) {
+    if (!scene.intersect(ray, s)) return add(booking.escaped, carried);
+    path.arrive(s, size);
+    scene.shade(s, -ray.direction, scene.usesFootprint(s) ? path.footprint() : Footprint{}, inputs,
+                x);
+    const std::uint32_t dim = dimension::vertex(std::uint32_t(bounce));
+    if (x.opacity < 1) {
+      // Layers beyond the first have numbers of their own, far from those of any vertex.
+      const bool stays =
+          sampler.number(dim + dimension::kOpacity + 0x10000u * std::uint32_t(layer)) < x.opacity;
+      path.chance(stays ? x.opacity : 1 - x.opacity);
+      if (!stays && ++layer < kMaxLayers) {
+        ray = spawnRay(s, ray.direction);
+        continue;
+      }
+    }
+    layer = 0;
+
+    if (x.brdf && !isBlack(x.brdf->diffuse(x.point))) {
+      ++booking.hits;
+      hierarchy.deposit(placeOf(s, x.toPrev), areaOf(path, area), inUnits(bending(x) * power));
+    }
+    const ScatterNumbers numbers{sampler.number(dim + dimension::kLobe),
+                                 sampler.pair(dim + dimension::kDirection)};
+    const std::optional<Scatter> drawn = drawScatter(x, numbers, Carries::flux);
+    if (!drawn) return add(booking.absorbed, carried);
+    power *= drawn->weight;
+    const Flux left = inUnits(power);
+    add(booking.absorbed, carried), add(booking.absorbed, left, -1);
+    carried = left;
+
+    const Real most = bounce < kMortalFrom ? Real(1) : kMaxSurvival;
+    const Real survival = std::min(maxComponent(drawn->weight), most);
+    if (!(sampler.number(dim + dimension::kRoulette) < survival)) return add(booking.lost, carried);
+    power = power / survival;
+    const Flux grown = inUnits(power);
+    add(booking.gained, grown), add(booking.gained, carried, -1);
+    carried = grown;
+    path.scatter(s, x, *drawn, numbers);
+    path.chance(survival);
+    ray = spawnRay(s, drawn->toNext);
+    ++bounce;
+  }
+}
+
+}  // namespace vestige::particle

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene from its text, with the plugins of this build.
+#pragma once
+#include "lang/lang.h"
+#include "support/catch.h"
+#include "support/scenes.h"
+#include "support/schema_list.h"
+
+namespace vestige::test {
+
+inline std::unique_ptr<Scene> sceneOf(const std::string& text) {
+  std::vector<Schema> schemas;
+  for (const Schema* s : registry().schemas()) schemas.push_back(*s);
+  lang::Result read = lang::readSceneText("test.scene", text, SchemaList(schemas), {});
+  auto scene = buildScene(read.scene, registry(), {}, read.diagnostics);
+  for (const Diagnostic& d : read.diagnostics.list()) INFO(d.message);
+  REQUIRE(scene);
+  return scene;
+}
+
+}  // namespace vestige::test
