@@ -73,6 +73,30 @@ void addQuality(CLI::App& command, RenderRequest& r) {
       "threads; the picture is the same for any number (0: all)")
       ->group(group);
   addBuildOptions(command, r.build, group);
+  // A solution of integrator particle. Several files become one list.
+  const auto save = [&](const std::string& file) {
+    r.build.settings.emplace_back("save_solution", textValue(file));
+  };
+  command
+      .add_option_function<std::string>("--save-solution", save,
+                                        "keep the light on the surfaces (integrator particle)")
+      ->take_last()
+      ->type_name("FILE")
+      ->group(group);
+  const auto load = [&](const std::vector<std::string>& files) {
+    for (const std::string& file : files)
+      if (file.empty() || file.find(',') != std::string::npos)
+        throw Failure(kCommandLineWrong, "--load-solution wants a file whose name has no comma");
+    r.build.settings.emplace_back("load_solution",
+                                  textValue(fmt::format("{}", fmt::join(files, ","))));
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--load-solution", load,
+          "see a solution again, from any camera, without particles; parts add up")
+      ->allow_extra_args(false)
+      ->type_name("FILE")
+      ->group(group);
 }
 
 void addPicture(CLI::App& command, RenderRequest& r) {

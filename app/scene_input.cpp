@@ -188,27 +188,6 @@ void addBuildOptions(CLI::App& command, BuildOptions& build, const std::string& 
       ->take_last()
       ->type_name("BOUND")
       ->group(group);
-  // A solution of integrator particle. Several files become one list.
-  const auto save = [&](const std::string& file) {
-    build.settings.emplace_back("save_solution", textValue(file));
-  };
-  command
-      .add_option_function<std::string>("--save-solution", save,
-                                        "keep the light on the surfaces (integrator particle)")
-      ->take_last()
-      ->type_name("FILE")
-      ->group(group);
-  const auto load = [&](const std::vector<std::string>& files) {
-    build.settings.emplace_back("load_solution",
-                                textValue(fmt::format("{}", fmt::join(files, ","))));
-  };
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--load-solution", load,
-          "see a solution again, from any camera, without particles; parts add up")
-      ->allow_extra_args(false)
-      ->type_name("FILE")
-      ->group(group);
   const auto memory = [&](const std::string& text) {
     const auto bytes = parseBytes(text);
     if (!bytes)

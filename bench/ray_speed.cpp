@@ -14,11 +14,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/scene.h"
 #include "engine/render/session.h"
 #include "engine/scene/scene_impl.h"
 #include "engine/trace/embree.h"
-#include "lang/lang.h"
-#include "support/schema_list.h"
 
 using namespace vestige;
 
@@ -76,6 +75,9 @@ class Recorder final : public SceneView {
   Vec2 texels(const Surface& s) const noexcept override { return s_.texels(s); }
   Bounds bounds() const noexcept override { return s_.bounds(); }
   std::span<const Patch> patches() const noexcept override { return s_.patches(); }
+  SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept override {
+    return s_.patchPoint(patch, uv);
+  }
   Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept override {
     return s_.patchArea(patch, low, high);
   }
@@ -185,21 +187,6 @@ class Bare {
   embree::Scene scene_;
 };
 
-std::unique_ptr<Scene> read(const char* file) {
-  std::vector<std::string> refused;
-  const Registry registry = Registry::load(pluginFolders({}), refused);
-  lang::Options options;
-  options.includePaths = {installedIncludeFolder()};
-  std::vector<Schema> schemas;
-  for (const Schema* s : registry.schemas()) schemas.push_back(*s);
-  lang::Result text = lang::readScene(file, test::SchemaList(schemas), options);
-  auto scene = buildScene(text.scene, registry, {}, text.diagnostics);
-  for (const Diagnostic& d : text.diagnostics.list())
-    std::fprintf(stderr, "%s: %s\n", file, d.message.c_str());
-  if (!scene) std::exit(3);
-  return scene;
-}
-
 double median(std::vector<double> x) {
   std::sort(x.begin(), x.end());
   return x[x.size() / 2];
@@ -210,7 +197,7 @@ double median(std::vector<double> x) {
 int main(int argc, char** argv) {
   if (argc < 2 || argc > 3) return std::fprintf(stderr, "usage: ray_speed SCENE [SAMPLES]\n"), 2;
   const int samples = argc > 2 ? std::max(1, std::atoi(argv[2])) : 2;
-  const auto scene = read(argv[1]);
+  const auto scene = bench::read(argv[1]);
   const std::vector<Query> queries = raysOf(*scene, samples);
   const World& world = scene->impl().world;
   const Bare alike(world, RTC_SCENE_FLAG_ROBUST), fastest(world, RTC_SCENE_FLAG_NONE);

@@ -46,7 +46,9 @@ class Lambert final : public Brdf {
     return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
   }
 
-  Rgb diffuse(const ScatterPoint& p) const noexcept override { return p.inputs.rgb(kDiffuse); }
+  MattPart matt(const ScatterPoint& p) const noexcept override {
+    return {p.inputs.rgb(kDiffuse), true};
+  }
 
   LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
 };

@@ -107,13 +107,13 @@ class Principled final : public Brdf {
     return {a * Vec3{0, 0, d.byPrev} + b * g.dPrev, a * Vec3{0, 0, d.byNext} + b * g.dNext};
   }
 
-  /// The matt part's directional albedo.
-  Rgb diffuse(const ScatterPoint& p) const noexcept override {
+  /// B's directional albedo. Over the hemisphere f cos is a mean over cos^2: Gauss and Legendre's
+  /// rule of three nodes.
+  MattPart matt(const ScatterPoint& p) const noexcept override {
     const Model m(p);
-    // Over the hemisphere f cos is a mean over cos^2: Gauss and Legendre's rule of three nodes.
-    return kPi / 18 *
-           (5 * m.diffuse(Real(0.335711)).value + 8 * m.diffuse(Real(0.707107)).value +
-            5 * m.diffuse(Real(0.941965)).value);
+    return {kPi / 18 *
+            (5 * m.diffuse(Real(0.335711)).value + 8 * m.diffuse(Real(0.707107)).value +
+             5 * m.diffuse(Real(0.941965)).value)};
   }
 
   Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {

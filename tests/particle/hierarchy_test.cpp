@@ -22,7 +22,7 @@ const char* kBall =
 /// The element whose own flux is not zero.
 ElementId hit(const Hierarchy& h) {
   for (ElementId e = 1; e < h.elements().size(); ++e)
-    if (h.elements()[e].hits > 0) return e;
+    if (h.elements()[e].hits() > 0) return e;
   return 0;
 }
 

@@ -24,7 +24,7 @@ void fillEvenly(Hierarchy& h, const SceneView& scene) {
         return;
       }
       const auto f = std::int64_t(double(h.elements()[e].area) * 0x1p40);
-      h.elements()[e].deposit({f, f, f});
+      h.elements()[e].deposit({f, f, f}, 0);
     };
     fill(fill, Hierarchy::rootOf(patch, false), h.cellOf(patch), unsigned(patch), 0);
   }

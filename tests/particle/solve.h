@@ -59,8 +59,6 @@ inline HierarchySettings settings(Oracle oracle, bool clusters = false) {
   return s;
 }
 
-inline constexpr std::uint64_t kPass = 4096;
-
 /// Particles [first, last) of `declared`.
 inline Solution solve(const std::string& text, std::uint64_t declared, HierarchySettings how,
                       int threads = 2, std::uint64_t first = 0, std::uint64_t last = 0) {
@@ -72,8 +70,9 @@ inline Solution solve(const std::string& text, std::uint64_t declared, Hierarchy
   const Shooting shooting{
       view, *s.hierarchy, particleFootprint(), FootprintArea::covariance, declared, 7, s.power};
   if (last == 0) last = declared;
-  for (std::uint64_t at = first; at < last; at += kPass) {
-    shooting.pass(at, std::min(at + kPass, last), threads, s.booking);
+  for (std::uint64_t at = first, next; at < last; at = next) {
+    next = std::min(at + passAfter(at - first), last);
+    shooting.pass(at, next, threads, s.booking);
     s.filled |= s.hierarchy->pause();
   }
   return s;

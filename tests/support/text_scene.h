@@ -13,7 +13,9 @@ inline std::unique_ptr<Scene> sceneOf(const std::string& text) {
   for (const Schema* s : registry().schemas()) schemas.push_back(*s);
   lang::Result read = lang::readSceneText("test.scene", text, SchemaList(schemas), {});
   auto scene = buildScene(read.scene, registry(), {}, read.diagnostics);
-  for (const Diagnostic& d : read.diagnostics.list()) INFO(d.message);
+  std::string said;
+  for (const Diagnostic& d : read.diagnostics.list()) said += d.message + '\n';
+  INFO(said);
   REQUIRE(scene);
   return scene;
 }

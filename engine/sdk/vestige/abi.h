@@ -21,7 +21,7 @@ extern "C" struct VestigeError {
 /// lightChance() of a point.
 /// SDK 4: SceneView's intersect() and shade() fill in place, so does lastSurface();
 /// Light::isDrawn(); an InputBuffer is not initialised.
-/// SDK 5: Brdf::diffuse(); SceneView::patchPoint(); Preparation has a time and warnings; Aovs of
+/// SDK 5: Brdf::matt(); SceneView::patchPoint(); Preparation has a time and warnings; Aovs of
 /// elements; Integrator::usesJacobian().
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"

@@ -68,6 +68,12 @@ struct LogGradient {
   Vec3 dPrev, dNext;  ///< [3] each
 };
 
+/// What a BRDF scatters evenly over the hemisphere of toPrev: albedo / pi of f.
+struct MattPart {
+  Rgb albedo;          ///< [0, 1]; black: there is none
+  bool isAll = false;  ///< nothing else is scattered
+};
+
 class Brdf {
  public:
   virtual ~Brdf() = default;
@@ -92,10 +98,9 @@ class Brdf {
   /// default: finite differences of eval(), and a note to the user.
   virtual LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept;
 
-  /// The matt part: the fraction that it scatters evenly over the hemisphere of toPrev, [0, 1].
-  /// Integrators that keep light on surfaces keep this part's, and leave f less this / pi to rays
-  /// (a little below zero here and there is well). Black: there is none.
-  virtual Rgb diffuse(const ScatterPoint&) const noexcept { return {}; }
+  /// Its matt part. Integrators that keep light on surfaces keep this part's, and leave f less
+  /// albedo / pi to rays (a little below zero here and there is well).
+  virtual MattPart matt(const ScatterPoint&) const noexcept { return {}; }
 
   /// Radiance crosses an interface scaled by (n_prev / n_next)^2, flux does not [Vea97 5.2]. 1
   /// where toNext stays on its side. Reciprocity then reads f(b, a) = etaScale(a, b) f(a, b).

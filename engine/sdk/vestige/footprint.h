@@ -64,19 +64,6 @@ class PathFootprint {
     frozen_[0] = Four{share, share, lens, lens};
   }
 
-  /// A particle from a light. The cosine of its emission belongs to what it contributes; it moves
-  /// with the direction's numbers only, because a point's number takes the normal along.
-  void begin(const Particle& p, const RayJacobian& ray, std::uint64_t index, std::uint64_t declared,
-             const FootprintSettings& settings) noexcept {
-    begin(ray, p.direction, p.variables, index, declared, settings);
-    const Real cosine = dot(p.direction, p.normal);
-    if (p.variables < 4 || cosine == 0) return;
-    const Real by = std::copysign(1 / std::max(std::abs(cosine), kLeastCosine), cosine);
-    const Real gradient[4] = {0, 0, by * dot(ray.dDirection[2], p.normal),
-                              by * dot(ray.dDirection[3], p.normal)};
-    differentials_.begin(ray, p.direction, p.variables, gradient);
-  }
-
   /// To a surface that the ray under way meets; `size` is the scene's, which no differential
   /// outgrows.
   void arrive(const Surface& s, Real size) noexcept {

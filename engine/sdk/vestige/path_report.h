@@ -86,10 +86,16 @@ class PathReport {
                const PathFootprint<Lanes>* f) noexcept {
     if (record_) record_->add(vertex(s, toPrev, throughput, "scatter", f, drawn.local));
     if (!aovs_ || !f || drawn.local.specular) return;
-    const Footprint region = f->footprint();
-    aovs_->footprint = sideOf(region);
-    aovs_->footprintTexels = texelSideOf(region, scene_->texels(s));
+    see(s, *f);
     isWaiting_ = true;
+  }
+  /// The path ends where light is kept on the surface: what it saw counts as what scatters would.
+  template <int Lanes>
+  void rest(const Surface& s, Vec3 toPrev, Rgb throughput, const PathFootprint<Lanes>* f) noexcept {
+    end(s, toPrev, throughput, "end", f);
+    if (!aovs_ || !f) return;
+    see(s, *f);
+    aovs_ = nullptr;
   }
   /// Whether an AOV needs what the footprint says behind the scattering.
   bool isWaiting() const noexcept { return isWaiting_; }
@@ -117,6 +123,13 @@ class PathReport {
   }
 
  private:
+  template <int Lanes>
+  void see(const Surface& s, const PathFootprint<Lanes>& f) noexcept {
+    const Footprint region = f.footprint();
+    aovs_->footprint = sideOf(region);
+    aovs_->footprintTexels = texelSideOf(region, scene_->texels(s));
+  }
+
   template <int Lanes>
   PathVertex vertex(const Surface& s, Vec3 toPrev, Rgb throughput, const char* event,
                     const PathFootprint<Lanes>* f,

@@ -9,9 +9,10 @@ namespace vestige::particle {
 namespace {
 
 const Real kLeastCosine =
-    std::cos(Real(kPi) / 6);            ///< of a member's normal with the mean: 30 degrees
-constexpr Real kMostDepth = Real(0.1);  ///< across the mean plane, in sides of the cluster's square
-constexpr Real kMostSpread = Real(8);   ///< square of the diagonal, in areas: 2 for a full square
+    std::cos(Real(kPi) / 6);  ///< of a member's normal with the mean: 30 degrees
+constexpr Real kMostDepth =
+    Real(0.02);                        ///< across the mean plane, in sides of the cluster's square
+constexpr Real kMostSpread = Real(8);  ///< square of the diagonal, in areas: 2 for a full square
 
 /// Divisions before members are halved by number: 2^32 of them at most then.
 constexpr int kMostByMiddle = 48;
@@ -27,16 +28,21 @@ bool isFlat(Members members, double area) {
   }
   if (!(lengthSquared(bounds.size()) <= kMostSpread * Real(area)) || !(lengthSquared(mean) > 0))
     return false;
-  mean = normalize(mean);
+  const Frame frame = Frame::around(normalize(mean));
   const Real deep = kMostDepth * std::sqrt(Real(area));
+  Bounds flat;  // in the plane
   for (const ClusterMember& m : members) {
-    const Vec3 half = Real(0.5) * m.bounds.size(), centre = m.bounds.low + half;
-    const Real reach =
-        std::abs(half.x * mean.x) + std::abs(half.y * mean.y) + std::abs(half.z * mean.z);
-    if (dot(m.normal, mean) < kLeastCosine || std::abs(dot(centre - middle, mean)) + reach > deep)
+    const Vec3 half = Real(0.5) * m.bounds.size(), to = m.bounds.low + half - middle;
+    const auto reach = [&](Vec3 axis) {
+      return std::abs(half.x * axis.x) + std::abs(half.y * axis.y) + std::abs(half.z * axis.z);
+    };
+    if (dot(m.normal, frame.n) < kLeastCosine || std::abs(dot(to, frame.n)) + reach(frame.n) > deep)
       return false;
+    const Vec3 r = {reach(frame.s), reach(frame.t), 0}, at = frame.toLocal(to);
+    flat.add(Vec3{at.x, at.y, 0} - r), flat.add(Vec3{at.x, at.y, 0} + r);
   }
-  return true;
+  // More area than fits side by side: one covers another and would take light from it.
+  return Real(area) <= Real(1.05) * flat.size().x * flat.size().y;
 }
 
 /// In two, across the middle of the widest of place and direction: what looks elsewhere goes

@@ -14,30 +14,36 @@ namespace vestige::particle {
 
 /// Flux in units of kFluxUnit times the power of all lights, summed over particles.
 using Flux = std::array<std::int64_t, 3>;
-/// 2^33 particles that each carry what all lights send, and no sum overflows.
-inline constexpr double kFluxUnit = 0x1p-30;
+/// 2^32 particles that each bring what all lights send, 32 times, and no sum overflows.
+inline constexpr double kFluxUnit = 0x1p-26;
 
 /// Number of an element; 0: none.
 using ElementId = std::uint32_t;
 
 struct Element {
-  std::atomic<std::int64_t> flux[3] = {};  ///< that arrived here and in no child
-  std::atomic<std::uint32_t> hits{0};      ///< how many particles brought it
-  std::atomic<ElementId> children{0};      ///< the first of four; 0: not divided
-  ElementId parent = 0;                    ///< 0: nothing above
-  float area = 0;                          ///< world, scene units squared
-  std::int8_t level = 0;                   ///< divisions below the patch; -1: a cluster of patches
-  /// Oracle `variance`: the children only measure whether to divide; the picture does not see them.
-  std::atomic<bool> isTrial{false};
+  std::atomic<std::int64_t> flux[3] = {};      ///< that arrived here and in no child
+  std::atomic<std::uint32_t> quarter[4] = {};  ///< how many particles brought it, by part
+  std::atomic<ElementId> children{0};          ///< the first of four; 0: not divided
+  ElementId parent = 0;                        ///< 0: nothing above
+  float area = 0;                              ///< world, scene units squared
+  std::int8_t level = 0;  ///< divisions below the patch; -1: a cluster of patches
+  /// Hits vary in it: what it held, and what is meant for it, is its children's. Changes between
+  /// passes only.
+  bool varies = false;
 
-  void deposit(const Flux& f) noexcept {
+  void deposit(const Flux& f, int part) noexcept {
     for (int c = 0; c < 3; ++c)
       if (f[std::size_t(c)] != 0) flux[c].fetch_add(f[std::size_t(c)], std::memory_order_relaxed);
-    hits.fetch_add(1, std::memory_order_relaxed);
+    quarter[part].fetch_add(1, std::memory_order_relaxed);
   }
   Flux sum() const noexcept {
     return {flux[0].load(std::memory_order_relaxed), flux[1].load(std::memory_order_relaxed),
             flux[2].load(std::memory_order_relaxed)};
+  }
+  std::uint64_t hits() const noexcept {
+    std::uint64_t n = 0;
+    for (const auto& q : quarter) n += q.load(std::memory_order_relaxed);
+    return n;
   }
 };
 

@@ -4,10 +4,10 @@
 
 namespace vestige::particle {
 
-/// What a BRDF does besides its matt part: f - diffuse / pi, drawn as the whole is.
+/// What a BRDF does besides its matt part: f - albedo / pi, drawn as the whole is.
 class GlossyPart final : public Brdf {
  public:
-  GlossyPart(const Brdf& whole, Rgb diffuse) : whole_(whole), matt_(diffuse / kPi) {}
+  GlossyPart(const Brdf& whole, Rgb albedo) : whole_(whole), matt_(albedo / kPi) {}
 
   Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     const Rgb f = whole_.eval(p, toNext);

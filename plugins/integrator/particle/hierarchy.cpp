@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hierarchy.h"
 
+#include <thread>
+
 #include "clusters.h"
 
 namespace vestige::particle {
@@ -17,42 +19,74 @@ Cell aroundEverything(const SceneView& scene, int patch) noexcept {
   if (b.isEmpty()) return {{}, {}, {}, false};
   const SurfacePoint s = scene.patchPoint(patch, {});
   const Vec3 away = Real(0.5) * (b.low + b.high) - s.position;
-  const Real perU = lengthSquared(s.dPdu), perV = lengthSquared(s.dPdv);
-  const Vec2 centre = {dot(away, s.dPdu) / perU, dot(away, s.dPdv) / perV};
+  const Real uu = dot(s.dPdu, s.dPdu), uv = dot(s.dPdu, s.dPdv), vv = dot(s.dPdv, s.dPdv);
+  const Real u = dot(away, s.dPdu), v = dot(away, s.dPdv), det = uu * vv - uv * uv;
+  const Vec2 centre = {(vv * u - uv * v) / det, (uu * v - uv * u) / det};
   const Real reach = kPlaneReach * length(b.size());
-  const Vec2 half = {reach / std::sqrt(perU), reach / std::sqrt(perV)};
+  const Vec2 half = {reach / std::sqrt(uu), reach / std::sqrt(vv)};
   return {centre - half, {2 * half.x, 0}, {0, 2 * half.y}, false};
 }
 
-/// Whether hits vary over the four parts of an element more than chance explains: Pearson's sum,
-/// three degrees of freedom, one in a hundred.
-bool varies(const Element& e, const Element* children[4]) noexcept {
-  constexpr double kLeastHits = 32, kChance = 11.34;
-  double hits = 0;
-  for (int k = 0; k < 4; ++k) hits += children[k]->hits;
-  if (hits < kLeastHits) return false;
+/// Whether hits vary over the four parts of an element, of these areas, more than chance explains:
+/// Pearson's sum, three degrees of freedom, one in fifty.
+bool isUneven(const Element& e, const double (&areas)[4]) noexcept {
+  constexpr double kUnlikely = 9.84;
+  const double hits = double(e.hits()), area = areas[0] + areas[1] + areas[2] + areas[3];
   double sum = 0;
   for (int k = 0; k < 4; ++k) {
-    const double expected = hits * double(children[k]->area) / double(e.area);
-    if (expected > 0) sum += sqr(children[k]->hits - expected) / expected;
+    const double expected = area > 0 ? hits * areas[k] / area : 0;
+    if (expected > 0) sum += sqr(e.quarter[k] - expected) / expected;
   }
-  return sum > kChance;
+  return sum > kUnlikely;
+}
+/// Fewer hits say nothing.
+constexpr std::uint64_t kLeastHits = 12;
+
+/// Objects that are matt somewhere, by a look at some points of theirs.
+std::vector<bool> mattObjects(const SceneView& scene) {
+  constexpr int kMostLooks = 256;
+  constexpr Vec2 kPoints[4] = {{Real(0.3), Real(0.3)},
+                               {Real(0.62), Real(0.11)},
+                               {Real(0.05), Real(0.45)},
+                               {Real(0.21), Real(0.07)}};
+  std::vector<bool> isMatt;
+  std::vector<int> looks;
+  for (std::size_t i = 0; i < scene.patches().size(); ++i) {
+    const auto object = std::size_t(scene.patches()[i].object);
+    if (object >= isMatt.size()) isMatt.resize(object + 1), looks.resize(object + 1);
+    for (int k = 0; k < 4 && !isMatt[object] && looks[object]++ < kMostLooks; ++k) {
+      Surface s;
+      static_cast<SurfacePoint&>(s) = scene.patchPoint(int(i), kPoints[k]);
+      s.object = int(object), s.patch = int(i), s.patchUv = kPoints[k];
+      InputBuffer inputs;
+      const Interaction x = scene.shade(s, s.geometricNormal, {}, inputs);
+      isMatt[object] = x.brdf && !isBlack(x.brdf->matt(x.point).albedo);
+    }
+  }
+  return isMatt;
+}
+
+bool hasInfiniteLight(const SceneView& scene) noexcept {
+  return std::any_of(scene.lights().begin(), scene.lights().end(),
+                     [](const Light* l) { return l->isInfinite(); });
 }
 
 }  // namespace
 
 Hierarchy::Hierarchy(const SceneView& scene, const HierarchySettings& settings)
-    : scene_(scene), settings_(settings) {
+    : scene_(scene), settings_(settings), isMatt_(mattObjects(scene)) {
   const auto patches = scene.patches();
   firstCluster_ = clusterEnd_ = rootOf(int(patches.size()), false);
   std::vector<ClusterMember> members;
+  // Light from infinity is sent to what is finite only: a plane gets too little of it.
+  const bool isOpen = hasInfiniteLight(scene);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const Patch& p = patches[i];
     if (!std::isfinite(p.area)) {
       planeOf_.resize(patches.size(), -1);
       planeOf_[i] = int(planes_.size());
-      planes_.push_back(aroundEverything(scene, int(i)));
-    } else if (settings.clusters && lengthSquared(p.normal) > 0 && p.area > 0) {
+      planes_.push_back(isOpen ? Cell{{}, {}, {}} : aroundEverything(scene, int(i)));
+    } else if (settings.clusters && isMatt(p.object) && lengthSquared(p.normal) > 0 && p.area > 0) {
       const Vec3 centre = Real(0.5) * (p.bounds.low + p.bounds.high);
       for (const bool back : {false, true})
         members.push_back(
@@ -100,20 +134,32 @@ ElementId Hierarchy::root(const Place& p) const noexcept {
   return l.x >= 0 && l.y >= 0 && l.x <= 1 && l.y <= 1 ? e : 0;
 }
 
+void Hierarchy::areasOfParts(int patch, const Cell& cell, double (&areas)[4]) const noexcept {
+  for (int k = 0; k < 4; ++k) {
+    const Cell c = cell.child(k);
+    areas[k] = cell.isTriangle ? 1 : double(scene_.patchArea(patch, c.at({0, 0}), c.at({1, 1})));
+  }
+}
+
 ElementId Hierarchy::divide(ElementId id, int patch, const Cell& cell) {
   Element& e = elements_[id];
   ElementId expected = 0;
   if (!e.children.compare_exchange_strong(expected, kBusy, std::memory_order_acq_rel)) {
-    while (expected == kBusy) expected = e.children.load(std::memory_order_acquire);
+    for (; expected == kBusy; expected = e.children.load(std::memory_order_acquire))
+      std::this_thread::yield();
+    if (expected == 0) throw std::bad_alloc();  // as it was for the thread that we waited for
     return expected;
   }
-  const ElementId first = elements_.add(4);
-  double areas[4], sum = 0;
-  for (int k = 0; k < 4; ++k) {
-    const Cell c = cell.child(k);
-    areas[k] = cell.isTriangle ? 1 : double(scene_.patchArea(patch, c.at({0, 0}), c.at({1, 1})));
-    sum += areas[k];
+  ElementId first;
+  try {
+    first = elements_.add(4);
+  } catch (...) {
+    e.children.store(0, std::memory_order_release);
+    throw;
   }
+  double areas[4];
+  areasOfParts(patch, cell, areas);
+  const double sum = areas[0] + areas[1] + areas[2] + areas[3];
   for (int k = 0; k < 4; ++k) {
     Element& c = elements_[first + ElementId(k)];
     c.parent = id, c.level = std::int8_t(e.level + 1);
@@ -123,68 +169,66 @@ ElementId Hierarchy::divide(ElementId id, int patch, const Cell& cell) {
   return first;
 }
 
-ElementId Hierarchy::byArea(const Place& p, ElementId e, Real area) {
-  if (Real(elements_[e].area) <= area) {
-    for (ElementId up; (up = elements_[e].parent) && Real(elements_[up].area) <= area;) e = up;
-    return e;
-  }
-  Vec2 at = local(p);
-  Cell cell = cellOf(p.patch);
-  while (Real(elements_[e].area) > area) {
-    ElementId children = elements_[e].children.load(std::memory_order_acquire);
-    if (children == 0 || children == kBusy) {
-      if (!mayDivide(elements_[e])) return e;
-      children = divide(e, p.patch, cell);
-    }
-    const int k = descend(at, cell.isTriangle);
-    e = children + ElementId(k), cell = cell.child(k);
-  }
-  return e;
-}
-
-ElementId Hierarchy::byTrial(const Place& p, ElementId e) {
-  Vec2 at = local(p);
-  Cell cell = cellOf(p.patch);
-  for (bool isLast = false; !isLast;) {
-    ElementId children = elements_[e].children.load(std::memory_order_acquire);
-    if (children == 0 || children == kBusy) {
-      if (!mayDivide(elements_[e])) return e;
-      elements_[e].isTrial.store(true, std::memory_order_relaxed);
-      children = divide(e, p.patch, cell);
-    }
-    isLast = elements_[e].isTrial.load(std::memory_order_relaxed);
-    const int k = descend(at, cell.isTriangle);
-    e = children + ElementId(k), cell = cell.child(k);
-  }
-  return e;
-}
-
 void Hierarchy::deposit(const Place& p, Real footprintArea, const Flux& flux) {
-  const ElementId top = root(p);
-  if (top == 0) return;
-  const ElementId e = settings_.oracle == Oracle::variance  ? byTrial(p, top)
-                      : settings_.oracle == Oracle::uniform ? byArea(p, top, 0)
-                                                            : byArea(p, top, footprintArea);
-  elements_[e].deposit(flux);
+  ElementId e = root(p);
+  if (e == 0) return;
+  const Real area = settings_.oracle == Oracle::variance  ? kInfinity
+                    : settings_.oracle == Oracle::uniform ? 0
+                                                          : footprintArea;
+  Vec2 at = local(p);
+  Cell cell = cellOf(p.patch);
+  if (Real(elements_[e].area) <= area && !elements_[e].varies) {
+    if (settings_.oracle == Oracle::footprint)
+      for (ElementId up; (up = elements_[e].parent) && Real(elements_[up].area) <= area;) e = up;
+  }
+  while (elements_[e].level >= 0 && (Real(elements_[e].area) > area || elements_[e].varies)) {
+    ElementId children = elements_[e].children.load(std::memory_order_acquire);
+    if (children == 0 || children == kBusy) {
+      if (!mayDivide(elements_[e])) break;
+      children = divide(e, p.patch, cell);
+    }
+    const int k = descend(at, cell.isTriangle);
+    e = children + ElementId(k), cell = cell.child(k);
+  }
+  elements_[e].deposit(flux, descend(at, cell.isTriangle));
 }
 
-void Hierarchy::judge(ElementId id) {
+void Hierarchy::handDown(ElementId id, int patch, const Cell& cell) {
+  const ElementId first = divide(id, patch, cell);
   Element& e = elements_[id];
-  const ElementId first = e.children;
-  if (first == 0) return;
-  if (e.isTrial) {
-    const Element* children[4];
-    for (int k = 0; k < 4; ++k) children[k] = &elements_[first + ElementId(k)];
-    if (varies(e, children)) e.isTrial = false;
-    return;
+  const auto hits = std::int64_t(e.hits());
+  for (auto& sum : e.flux) {
+    // In two steps, so that the product does not overflow: whole units a hit, then the rest.
+    const std::int64_t whole = sum / hits, rest = sum % hits;
+    std::int64_t left = sum;
+    for (int k = 0; k < 4; ++k) {
+      const std::int64_t n = e.quarter[k];
+      const std::int64_t part = k == 3 ? left : whole * n + rest * n / hits;
+      elements_[first + ElementId(k)].flux[&sum - e.flux] += part;
+      left -= part;
+    }
+    sum = 0;
   }
-  for (int k = 0; k < 4; ++k) judge(first + ElementId(k));
+  e.varies = true;
+}
+
+void Hierarchy::judge(ElementId id, int patch, const Cell& cell) {
+  Element& e = elements_[id];
+  if (!e.varies && mayDivide(e) && e.hits() >= kLeastHits) {
+    double areas[4];
+    areasOfParts(patch, cell, areas);
+    if (isUneven(e, areas)) handDown(id, patch, cell);
+  }
+  const ElementId first = e.children;
+  for (int k = 0; first != 0 && k < 4; ++k) judge(first + ElementId(k), patch, cell.child(k));
 }
 
 bool Hierarchy::pause() {
   if (!canDivide_) return false;
-  if (settings_.oracle == Oracle::variance)
-    for (ElementId e = 1; e < firstCluster_; ++e) judge(e);
+  if (settings_.oracle == Oracle::variance ||
+      (settings_.oracle == Oracle::footprint && settings_.edges))
+    for (ElementId e = 1; e < firstCluster_; ++e)
+      if (elements_[e].area > 0) judge(e, patchOf(e), cellOf(patchOf(e)));
   canDivide_ = elements_.bytes() < settings_.memory;
   return !canDivide_;
 }

@@ -19,12 +19,15 @@ namespace vestige::particle {
 
 enum class Oracle {
   footprint,  ///< the largest element just smaller than the particle's footprint [PD01 4.2]
-  variance,   ///< elements are divided, between passes, where hits vary in them [Tob97]
+  variance,   ///< patches are divided, between passes, where hits vary in them [Tob97]
   uniform,    ///< all patches alike
 };
 
 struct HierarchySettings {
   Oracle oracle = Oracle::footprint;
+  /// Besides footprints: where hits vary in an element, what is meant for it goes to its children.
+  /// No derivative sees a shadow's edge.
+  bool edges = true;
   bool clusters = true;
   Real minArea = 0;   ///< no element smaller, scene units squared
   int maxLevel = 12;  ///< divisions below a patch; `uniform`: exactly so many
@@ -53,13 +56,17 @@ class Hierarchy {
   /// Divides where it must. [any thread]
   void deposit(const Place& p, Real footprintArea, const Flux& flux);
 
-  /// Between passes: `variance` divides; no division any more once memory is used up. True if that
-  /// happened just now. [one thread]
+  /// Between passes: looks where hits vary; no division any more once memory is used up. True if
+  /// that happened just now. [one thread]
   bool pause();
   bool isFull() const noexcept { return !canDivide_; }
 
   /// Divides an element, unless it is. [any thread]
   ElementId divide(ElementId e, int patch, const Cell& cell);
+
+  /// Whether something of an object is matt: where a texture makes it black for a while, light is
+  /// left as well, or its neighbours in the element would get too little.
+  bool isMatt(int object) const noexcept { return isMatt_[std::size_t(object)]; }
 
   const Elements& elements() const noexcept { return elements_; }
   /// Elements from 1 to patches * 2 are roots (front, back), then come clusters.
@@ -77,15 +84,17 @@ class Hierarchy {
 
  private:
   bool mayDivide(const Element& e) const noexcept {
-    return canDivide_ && e.level < settings_.maxLevel &&
-           (settings_.oracle == Oracle::uniform || Real(e.area) >= 4 * settings_.minArea);
+    return canDivide_ && e.level < settings_.maxLevel && Real(e.area) >= 4 * settings_.minArea;
   }
-  ElementId byArea(const Place& p, ElementId root, Real area);
-  ElementId byTrial(const Place& p, ElementId root);
-  void judge(ElementId e);
+  void areasOfParts(int patch, const Cell& cell, double (&areas)[4]) const noexcept;
+  void judge(ElementId e, int patch, const Cell& cell);
+  /// What an element holds goes to its children, by their share of its hits: nothing is lost, and
+  /// nothing stays where it is too coarse.
+  void handDown(ElementId e, int patch, const Cell& cell);
 
   const SceneView& scene_;
   HierarchySettings settings_;
+  std::vector<bool> isMatt_;  ///< by object
   std::vector<Cell> planes_;  ///< of infinite patches: a square around everything else
   std::vector<int> planeOf_;  ///< by patch, index into planes_ or -1; empty: there are none
   Elements elements_;

@@ -13,6 +13,13 @@ constexpr Real kSameNormal = Real(0.8);
 /// No edge is divided more often than elements are.
 constexpr int kMostHalvings = 24;
 
+/// ... but not closer than rounding knows far from the origin.
+Real closeness(const Bounds& b) noexcept {
+  if (b.isEmpty()) return kSame;
+  const Real far = std::max(maxAbsComponent(b.low), maxAbsComponent(b.high));
+  return std::max(kSame * length(b.size()), 8 * std::numeric_limits<Real>::epsilon() * far);
+}
+
 std::uint32_t mixed(std::uint32_t h, std::uint32_t k) noexcept {
   h = (h ^ k) * 0x9e3779b9u;
   return h ^ (h >> 15);
@@ -32,7 +39,7 @@ class Irradiance::Build {
         scene_(scene),
         hierarchy_(hierarchy),
         scale_(scale),
-        same_(kSame * (scene.bounds().isEmpty() ? Real(1) : length(scene.bounds().size()))) {}
+        same_(closeness(scene.bounds())) {}
 
   void run() {
     to_.roots_.assign(hierarchy_.firstCluster(), 0);
@@ -44,13 +51,11 @@ class Irradiance::Build {
     for (const auto& level : byDepth_)
       for (const Leaf& l : level)
         if (to_.nodes_[l.node].children == 0) addVertices(l), ++to_.leaves_;
+    between_.resize(vertices_.size());
     joinEdges();
     to_.values_.reserve(vertices_.size());
     for (const Vertex& v : vertices_) to_.values_.push_back(v.sum / Real(std::max(1, v.count)));
-    std::sort(hanging_.begin(), hanging_.end(),
-              [](const Hanging& a, const Hanging& b) { return a.length > b.length; });
-    for (const Hanging& h : hanging_)
-      to_.values_[h.middle] = Real(0.5) * (to_.values_[h.a] + to_.values_[h.b]);
+    for (std::uint32_t v = 0; v < between_.size(); ++v) settle(v);
   }
 
  private:
@@ -67,7 +72,7 @@ class Irradiance::Build {
     for (ElementId r = 1; r < hierarchy_.firstCluster(); ++r) {
       bool any = hierarchy_.elements()[r].children != 0;
       for (ElementId e = r; e && !any; e = hierarchy_.elements()[e].parent)
-        any = hierarchy_.elements()[e].hits > 0;
+        any = hierarchy_.elements()[e].hits() > 0;
       if (any) lit[objectSide(r)] = true;
     }
     return lit;
@@ -95,12 +100,10 @@ class Irradiance::Build {
     const Element& element = hierarchy_.elements()[id];
     e += density(element);
     const ElementId first = element.children;
-    to_.nodes_[node].level = element.level;
-    if (first == 0 || element.isTrial) {
-      if (first != 0)
-        for (int k = 0; k < 4; ++k)
-          e += scaled(hierarchy_.elements()[first + ElementId(k)].sum(),
-                      scale_ / double(element.area));
+    const bool isClusters = first == 0 && here.depth == 0 && element.hits() == 0 &&
+                            element.parent != 0 && hierarchy_.elements()[element.parent].hits() > 0;
+    to_.nodes_[node].level = isClusters ? std::int8_t(-1) : element.level;
+    if (first == 0) {
       to_.nodes_[node].e = e;
       remember(here);
       return;
@@ -221,9 +224,20 @@ class Irradiance::Build {
     const Vec2 middle = Real(0.5) * (a + b);
     const std::uint32_t v = vertex(l, middle, false);
     if (v == kNone || v == va || v == vb) return;
-    hanging_.push_back({v, va, vb, length(vertices_[va].position - vertices_[vb].position)});
+    const Real longness = length(vertices_[va].position - vertices_[vb].position);
+    if (longness > between_[v].length) between_[v] = {va, vb, longness};
     joinEdge(l, a, middle, va, v, halvings + 1);
     joinEdge(l, middle, b, v, vb, halvings + 1);
+  }
+
+  /// The ends of the edge first, which may hang on others; four patches in a ring may hang on each
+  /// other.
+  void settle(std::uint32_t v) {
+    Between& b = between_[v];
+    if (b.length <= 0 || b.isSettled) return;
+    b.isSettled = true;
+    settle(b.a), settle(b.b);
+    to_.values_[v] = Real(0.5) * (to_.values_[b.a] + to_.values_[b.b]);
   }
 
   static constexpr std::uint32_t kNone = ~std::uint32_t(0);
@@ -236,7 +250,7 @@ class Irradiance::Build {
   std::vector<std::vector<Leaf>> byDepth_;
   std::vector<Vertex> vertices_;
   std::unordered_map<std::uint64_t, std::uint32_t> grid_;
-  std::vector<Hanging> hanging_;
+  std::vector<Between> between_;  ///< by vertex
 };
 
 Irradiance::Irradiance(const SceneView& scene, const Hierarchy& hierarchy, double scale)

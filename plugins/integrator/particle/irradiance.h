@@ -14,7 +14,7 @@ namespace vestige::particle {
 
 /// What the picture shows of an element.
 struct ElementInfo {
-  int level = 0;         ///< divisions below its patch; where the picture has more, those flux made
+  int level = 0;         ///< divisions below its patch; -1: it lies in a cluster
   std::uint32_t id = 0;  ///< 24 bits; neighbours differ
 };
 
@@ -51,9 +51,11 @@ class Irradiance {
     int count = 0;
     std::uint32_t next = 0;  ///< in the same cell of the grid
   };
-  struct Hanging {
-    std::uint32_t middle, a, b;
-    Real length;
+  /// A vertex in the middle of the longest edge that it lies on; length 0: of none.
+  struct Between {
+    std::uint32_t a = 0, b = 0;
+    Real length = 0;
+    bool isSettled = false;
   };
   class Build;
 

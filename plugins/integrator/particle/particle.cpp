@@ -17,9 +17,6 @@
 namespace vestige::particle {
 namespace {
 
-/// Particles between two looks at the clock, at memory, at the user. Part of the result where
-/// elements are judged between passes.
-constexpr std::uint64_t kPass = 16384;
 /// Of `--time`, for particles; the rest is the picture's.
 constexpr double kShareOfTime = 0.5;
 /// Roulette on eye paths starts with this scattering.
@@ -67,6 +64,7 @@ class ParticleIntegrator final : public Integrator {
     kOracle,
     kLevel,
     kArea,
+    kEdges,
     kClusters,
     kMinArea,
     kMaxLevel,
@@ -100,13 +98,16 @@ class ParticleIntegrator final : public Integrator {
                 .unset()
                 .doc("of a footprint: of its ellipse, or exactly of the polygon (with footprint "
                      "paper)"),
+            boolean("edges", true)
+                .doc("with oracle footprint: elements are divided further where hits vary in them, "
+                     "as at a shadow's edge, which no derivative sees"),
             boolean("clusters", true).doc("wide footprints may land on several patches at once"),
             real("min_area", 0)
                 .unset()
                 .range(0, 1e12)
                 .in("scene units^2")
                 .doc("of the smallest element (a square of 1/5000 of the scene's diameter)"),
-            integer("max_level", 12).range(0, 20).doc("most divisions of a patch"),
+            integer("max_level", 12).range(0, 16).doc("most divisions of a patch"),
             integer("memory", 1024)
                 .range(1, 1 << 20)
                 .in("MiB")
@@ -121,9 +122,7 @@ class ParticleIntegrator final : public Integrator {
             block("footprint", "footprint").doc("of particles (global, with limit 0.7)"),
             text("save_solution", "")
                 .doc("file for the solution, to be seen again without particles"),
-            text("load_solution", "")
-                .doc(
-                    "files, separated by commas, that are added up instead of sending particles")}};
+            text("load_solution", "").doc("by --load-solution: files whose sum is seen")}};
   }
 
   explicit ParticleIntegrator(const Values& v)
@@ -141,6 +140,13 @@ class ParticleIntegrator final : public Integrator {
         save_(v.text(kSave)),
         load_(splitAtCommas(v.text(kLoad))) {
     if (part_ > parts_) throw PluginError(kPart, "part is one of 1 to parts");
+    if (parts_ > particles_) throw PluginError(kParts, "there are more parts than particles");
+    // A scene from elsewhere shall not write or read files by itself.
+    for (const int row : {int(kSave), int(kLoad)})
+      if (v.has(row) && v.span(row).file >= 0)
+        throw PluginError(row,
+                          "solutions are named on the command line: --save-solution FILE, "
+                          "--load-solution FILE");
     footprint_.deltas.fewest = 3;
     const bool isPaper = footprint_.shape == RegionShape::representative;
     area_ = (v.has(kArea) ? v.text(kArea) == "polygon" : isPaper) ? FootprintArea::polygon
@@ -149,7 +155,7 @@ class ParticleIntegrator final : public Integrator {
     elements_.oracle = oracle == "variance"  ? Oracle::variance
                        : oracle == "uniform" ? Oracle::uniform
                                              : Oracle::footprint;
-    elements_.clusters = v.flag(kClusters);
+    elements_.edges = v.flag(kEdges), elements_.clusters = v.flag(kClusters);
     elements_.maxLevel = int(v.integer(elements_.oracle == Oracle::uniform ? kLevel : kMaxLevel));
     elements_.minArea = v.has(kMinArea) ? v.real(kMinArea) : Real(-1);
     elements_.memory = std::size_t(v.integer(kMemory)) << 20;
@@ -200,14 +206,19 @@ class ParticleIntegrator final : public Integrator {
     const std::uint64_t first = particles_ * (part_ - 1) / parts_,
                         last = particles_ * part_ / parts_;
     const double start = now();
-    for (std::uint64_t at = first; at < last; at += kPass) {
-      shooting.pass(at, std::min(at + kPass, last), p.threads, booking);
+    for (std::uint64_t at = first, next; at < last; at = next) {
+      next = std::min(at + passAfter(at - first), last);
+      shooting.pass(at, next, p.threads, booking);
       if (hierarchy_->pause())
         p.warn(
             "the elements fill their memory: from here on none is divided further (see memory "
             "of integrator particle)");
-      if (!p.progress(double(at - first) / double(last - first))) return false;
-      if (p.seconds > 0 && now() - start > kShareOfTime * p.seconds) break;
+      if (!p.progress(double(next - first) / double(last - first))) return false;
+      if (p.seconds > 0 && next < last && now() - start > kShareOfTime * p.seconds) {
+        p.warn("half of the time was enough for " + std::to_string(next - first) + " of " +
+               std::to_string(last - first) + " particles");
+        break;
+      }
     }
     return true;
   }
@@ -233,12 +244,14 @@ class ParticleIntegrator final : public Integrator {
       radiance += throughput * metLight(c.scene, s, drawn);
       c.scene.shade(s, -ray.direction, regionAt(c.scene, s, footprint), inputs, x);
       const auto vertex = std::uint32_t(edge - 1);
+      const std::uint32_t dim = dimension::vertex(vertex);
       if (x.opacity < 1) {
-        const std::uint32_t dim = dimension::vertex(vertex) + dimension::kOpacity;
-        const bool stays = c.sampler.number(dim + 0x10000u * std::uint32_t(layer)) < x.opacity;
+        const std::uint32_t own = dim + dimension::kOpacity + 0x10000u * std::uint32_t(layer);
+        const bool stays = c.sampler.number(own) < x.opacity;
         if (footprint) footprint->chance(stays ? x.opacity : 1 - x.opacity);
-        if (!stays && ++layer < kMaxLayers) {
+        if (!stays) {
           report.end(s, x.toPrev, throughput, "pass", footprint);
+          if (++layer == kMaxLayers) break;
           ray = spawnRay(s, ray.direction);
           continue;
         }
@@ -246,37 +259,48 @@ class ParticleIntegrator final : public Integrator {
       layer = 0;
       const Place place = placeOf(s, x.toPrev);
       if (edge == 1 && c.aovs) tellFirst(*c.aovs, s, x, place);
-      if (!x.brdf || edge == depth_) break;
 
-      const Rgb diffuse = x.brdf->diffuse(x.point);
-      const bool isMatt = !isBlack(diffuse) && irradiance_.covers(place);
-      const Brdf* const whole = x.brdf;
-      const GlossyPart rest(*whole, diffuse);
-      if (isMatt && !gathers) {
+      const MattPart matt = x.brdf ? x.brdf->matt(x.point) : MattPart{{}, true};
+      const bool isKept = !isBlack(matt.albedo) && irradiance_.covers(place);
+      const bool isShown = isKept && !gathers;
+      if (isShown) {
         const Rgb e = irradiance_.at(place, show_ != Show::elements);
-        radiance += wired(c, edge, place) * throughput * (diffuse / kPi) * e;
-        x.brdf = &rest;
+        radiance += wired(c, edge, place) / kPi * throughput * matt.albedo * e;
+        if (edge == 1 && c.aovs) c.aovs->albedo = matt.albedo;
       }
-      if (!glossy_ && !(isMatt && gathers)) break;
-      if (isMatt) gathers = false;
+      const bool isAll = matt.isAll && (isShown || isBlack(matt.albedo));
+      if (isAll || edge == depth_ || (!glossy_ && !(isKept && gathers))) {
+        report.rest(s, x.toPrev, throughput, footprint);
+        break;
+      }
+      const GlossyPart rest(*x.brdf, matt.albedo);
+      if (isShown) x.brdf = &rest;
+      if (isKept) gathers = false;
+
       radiance += throughput * directLight(c, s, x, vertex, c.sampler.index());
-      const std::uint32_t dim = dimension::vertex(vertex);
       const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe),
                                    c.sampler.pair(dim + dimension::kDirection)};
       const std::optional<Scatter> next = drawScatter(x, numbers);
-      if (edge == 1 && c.aovs && next) c.aovs->albedo = next->local.weight;
-      if (!next || isBlack(next->weight)) break;
+      if (edge == 1 && c.aovs && next) c.aovs->albedo += next->local.weight;
+      if (!next || isBlack(next->weight)) {
+        report.end(s, x.toPrev, throughput, "absorbed", footprint);
+        break;
+      }
       report.scatter(s, x.toPrev, throughput, *next, footprint);
       throughput *= next->weight, flux *= next->local.weight;
       drawn = {s.position, next->local.specular ? kInfinity : next->local.pdf};
+      if (footprint) footprint->scatter(s, x, *next, numbers);
+      report.left(footprint);
       if (edge >= kRouletteFrom) {
-        const Real survival = std::min(kMaxSurvival, std::sqrt(std::abs(maxComponent(flux))));
-        if (!(c.sampler.number(dim + dimension::kRoulette) < survival)) break;
+        const Real left = std::max({std::abs(flux.r), std::abs(flux.g), std::abs(flux.b)});
+        const Real survival = std::min(kMaxSurvival, std::sqrt(left));
+        if (!(c.sampler.number(dim + dimension::kRoulette) < survival)) {
+          report.gone("roulette", next->toNext, throughput);
+          break;
+        }
         throughput = throughput / survival, flux = flux / survival;
         if (footprint) footprint->chance(survival);
       }
-      if (footprint) footprint->scatter(s, x, *next, numbers);
-      report.left(footprint);
       ray = spawnRay(s, next->toNext);
       ++edge;
     }

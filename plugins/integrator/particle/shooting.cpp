@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shooting.h"
 
+#include <exception>
 #include <thread>
 
 namespace vestige::particle {
@@ -9,6 +10,8 @@ namespace {
 /// Dimensions of a particle's numbers: a point of a light, a direction, which light; then as paths.
 constexpr std::uint32_t kPoint = dimension::kFilm, kDirection = dimension::kLens,
                         kLight = dimension::kTime;
+/// Far from those of any vertex.
+constexpr std::uint32_t kRounding = 0x70000000u;
 
 /// What a thread takes at once.
 constexpr std::uint64_t kBatch = 256;
@@ -60,23 +63,29 @@ double totalPower(const SceneView& scene) noexcept {
   return std::max({rgb[0], rgb[1], rgb[2]});
 }
 
-Flux Shooting::inUnits(Rgb watt) const noexcept {
+Flux Shooting::inUnits(Rgb watt, Real u) const noexcept {
   const double scale = 1 / (power * kFluxUnit);
   const auto rounded = [&](Real x) {
-    const double n = double(x) * scale;
-    return std::isfinite(n) ? std::int64_t(n + std::copysign(0.5, n)) : 0;
+    const double n = std::floor(double(x) * scale + double(u));
+    return std::isfinite(n) ? std::int64_t(std::clamp(n, -0x1p60, 0x1p60)) : 0;
   };
   return {rounded(watt.r), rounded(watt.g), rounded(watt.b)};
 }
 
 void Shooting::pass(std::uint64_t first, std::uint64_t last, int threads, Booking& booking) const {
   std::atomic<std::uint64_t> next{first};
+  std::exception_ptr failure;  // memory is all that may fail
   std::mutex mutex;
   const auto work = [&] {
     Booking own;
-    for (std::uint64_t at; (at = next.fetch_add(kBatch)) < last;)
-      for (std::uint64_t i = at; i < std::min(at + kBatch, last); ++i)
-        shootOne(std::uint32_t(i), own);
+    try {
+      for (std::uint64_t at; (at = next.fetch_add(kBatch)) < last;)
+        for (std::uint64_t i = at; i < std::min(at + kBatch, last); ++i)
+          shootOne(std::uint32_t(i), own);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      failure = std::current_exception(), next = last;
+    }
     const std::lock_guard lock(mutex);
     booking.add(own);
   };
@@ -84,6 +93,7 @@ void Shooting::pass(std::uint64_t first, std::uint64_t last, int threads, Bookin
   for (int i = 1; i < threads; ++i) others.emplace_back(work);
   work();
   for (std::thread& t : others) t.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
@@ -98,10 +108,12 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
 
   const Real size = scene.bounds().isEmpty() ? Real(0) : length(scene.bounds().size());
   Rgb power = particle->power / choice->chance;
-  Flux carried = inUnits(power);
+  const Real rounding = sampler.number(kRounding);
+  Flux carried = inUnits(power, rounding);
   add(booking.emitted, carried);
   PathFootprint<> path;
-  path.begin(*particle, light.emissionDerivatives(u), index, particles, footprint);
+  path.begin(light.emissionDerivatives(u), particle->direction, particle->variables, index,
+             particles, footprint);
   path.chance(choice->chance);
 
   Ray ray = start(*particle, size);
@@ -114,28 +126,31 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
     scene.shade(s, -ray.direction, scene.usesFootprint(s) ? path.footprint() : Footprint{}, inputs,
                 x);
     const std::uint32_t dim = dimension::vertex(std::uint32_t(bounce));
+    // Before opacity: who looks at the surface sees it as opaque as it is.
+    if (hierarchy.isMatt(s.object)) {
+      ++booking.hits;
+      hierarchy.deposit(placeOf(s, x.toPrev), areaOf(path, area),
+                        inUnits(bending(x) * power, rounding));
+    }
     if (x.opacity < 1) {
       // Layers beyond the first have numbers of their own, far from those of any vertex.
-      const bool stays =
-          sampler.number(dim + dimension::kOpacity + 0x10000u * std::uint32_t(layer)) < x.opacity;
+      const std::uint32_t own = dim + dimension::kOpacity + 0x10000u * std::uint32_t(layer);
+      const bool stays = sampler.number(own) < x.opacity;
       path.chance(stays ? x.opacity : 1 - x.opacity);
-      if (!stays && ++layer < kMaxLayers) {
+      if (!stays) {
+        if (++layer == kMaxLayers) return add(booking.absorbed, carried);
         ray = spawnRay(s, ray.direction);
         continue;
       }
     }
     layer = 0;
 
-    if (x.brdf && !isBlack(x.brdf->diffuse(x.point))) {
-      ++booking.hits;
-      hierarchy.deposit(placeOf(s, x.toPrev), areaOf(path, area), inUnits(bending(x) * power));
-    }
     const ScatterNumbers numbers{sampler.number(dim + dimension::kLobe),
                                  sampler.pair(dim + dimension::kDirection)};
     const std::optional<Scatter> drawn = drawScatter(x, numbers, Carries::flux);
     if (!drawn) return add(booking.absorbed, carried);
     power *= drawn->weight;
-    const Flux left = inUnits(power);
+    const Flux left = inUnits(power, rounding);
     add(booking.absorbed, carried), add(booking.absorbed, left, -1);
     carried = left;
 
@@ -143,7 +158,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
     const Real survival = std::min(maxComponent(drawn->weight), most);
     if (!(sampler.number(dim + dimension::kRoulette) < survival)) return add(booking.lost, carried);
     power = power / survival;
-    const Flux grown = inUnits(power);
+    const Flux grown = inUnits(power, rounding);
     add(booking.gained, grown), add(booking.gained, carried, -1);
     carried = grown;
     path.scatter(s, x, *drawn, numbers);

@@ -39,8 +39,15 @@ struct Shooting {
 
  private:
   void shootOne(std::uint32_t index, Booking& booking) const;
-  Flux inUnits(Rgb watt) const noexcept;
+  /// Rounded up with the chance of the rest: weak lights are not lost. `u` in [0,1).
+  Flux inUnits(Rgb watt, Real u) const noexcept;
 };
+
+/// Particles between two looks at the clock, the user, memory, and where hits vary: few at first,
+/// so that little flux is left on elements that are soon divided.
+inline std::uint64_t passAfter(std::uint64_t sent) noexcept {
+  return std::clamp<std::uint64_t>(sent / 4, 1024, 65536);
+}
 
 /// W, of all lights together, the brightest channel; 0: it is dark.
 double totalPower(const SceneView& scene) noexcept;

@@ -2,6 +2,7 @@
 #include "solution_file.h"
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -14,6 +15,9 @@ namespace {
 // anything, its id and its tree (depth first: flux, hits, whether it is divided); id 0 ends.
 constexpr const char* kFirstLine = "vestige radiosity solution 1";
 
+/// More than integrator particle takes.
+constexpr std::uint64_t kMostParticles = std::uint64_t(1) << 32;
+
 struct Record {
   std::int64_t flux[3];
   std::uint32_t hits;
@@ -25,21 +29,13 @@ static_assert(sizeof(Record) == 32);
   throw std::runtime_error("solution '" + file + "' " + why);
 }
 
-bool isEmpty(const Element& e) noexcept { return e.hits == 0 && e.children == 0; }
+bool isEmpty(const Element& e) noexcept { return e.hits() == 0 && e.children == 0; }
 
 void writeTree(std::ofstream& out, const Hierarchy& h, ElementId id) {
   const Element& e = h.elements()[id];
-  const ElementId first = e.isTrial ? 0 : e.children.load();
-  Flux f = e.sum();
-  std::uint32_t hits = e.hits;
-  if (e.isTrial)  // what its trial children hold is its own
-    for (int k = 0; k < 4; ++k) {
-      const Element& c = h.elements()[e.children + ElementId(k)];
-      const Flux own = c.sum();
-      for (std::size_t i = 0; i < 3; ++i) f[i] += own[i];
-      hits += c.hits;
-    }
-  const Record r{{f[0], f[1], f[2]}, hits, first != 0};
+  const ElementId first = e.children;
+  const Flux f = e.sum();
+  const Record r{{f[0], f[1], f[2]}, std::uint32_t(e.hits()), first != 0};
   out.write(reinterpret_cast<const char*>(&r), sizeof r);
   for (int k = 0; first != 0 && k < 4; ++k) writeTree(out, h, first + ElementId(k));
 }
@@ -51,7 +47,7 @@ bool readTree(std::ifstream& in, Hierarchy& h, ElementId id, int patch, const Ce
   if (!in.read(reinterpret_cast<char*>(&r), sizeof r) || depth > 30) return false;
   Element& e = h.elements()[id];
   for (int c = 0; c < 3; ++c) e.flux[c] += r.flux[c];
-  e.hits += r.hits;
+  e.quarter[0] += r.hits;
   if (!r.isDivided) return true;
   if (patch < 0) return false;
   const ElementId first = h.divide(id, patch, cell);
@@ -76,6 +72,9 @@ std::uint64_t fingerprint(const SceneView& scene, const Hierarchy& hierarchy) no
   for (const Patch& p : scene.patches()) {
     mix(h, &p.area, sizeof p.area);
     mix(h, &p.bounds.low, sizeof p.bounds.low), mix(h, &p.bounds.high, sizeof p.bounds.high);
+    mix(h, &p.normal, sizeof p.normal);
+    const Vec3 corner = scene.patchPoint(int(&p - scene.patches().data()), {}).position;
+    mix(h, &corner, sizeof corner);
   }
   return h;
 }
@@ -128,7 +127,11 @@ void addSolution(const std::string& file, SolutionKey& key, Booking& booking,
     for (std::int64_t& x : *f) in >> x;
   in >> word;
   if (!in || word != "elements" || in.get() != '\n') fail(file, "is damaged");
-  if (own.surfaces != key.surfaces) fail(file, "was made for other surfaces than this scene has");
+  if (!(own.power >= 0) || !std::isfinite(own.power) || b.particles > own.particles ||
+      own.particles > kMostParticles)
+    fail(file, "is damaged");
+  if (own.surfaces != key.surfaces)
+    fail(file, "was made for other surfaces than this scene has, or with other `clusters`");
   if (key.particles != 0 && (own.particles != key.particles || own.power != key.power))
     fail(file,
          "was made with other lights, or is part of another number of particles, than the "

@@ -187,14 +187,11 @@ class Differentials {
   }
 
   /// Starts with the numbers of a camera, or of a light's emission.
-  /// `gradient`: of what is emitted, one a number; null: zero.
-  void begin(const RayJacobian& ray, Vec3 direction, int variables,
-             const Real* gradient = nullptr) noexcept {
+  void begin(const RayJacobian& ray, Vec3 direction, int variables) noexcept {
     size_ = 0;
     leave(Frame::around(direction));
     for (int j = 0; j < variables; ++j)
-      append(ray.dOrigin[std::size_t(j)], ray.dDirection[std::size_t(j)],
-             gradient ? gradient[j] : 0);
+      append(ray.dOrigin[std::size_t(j)], ray.dDirection[std::size_t(j)], 0);
   }
 
   /// To the point where the ray meets a surface at distance t [Ige99 Eq. 10, 12; MATH 1.3].
