@@ -40,7 +40,7 @@ bool isUneven(const Element& e, const double (&areas)[4]) noexcept {
   return sum > kUnlikely;
 }
 /// Fewer hits say nothing.
-constexpr std::uint64_t kLeastHits = 12;
+constexpr std::uint64_t kLeastHits = 8;
 
 /// Objects that are matt somewhere, by a look at some points of theirs.
 std::vector<bool> mattObjects(const SceneView& scene) {
