@@ -157,6 +157,41 @@ TEST_CASE("no surface gives back more than it gets", "[brdf][energy]") {
   check(worst);
 }
 
+TEST_CASE("the matt part is no more than there is, and all where it says so", "[brdf][energy]") {
+  constexpr int kSamples = 1 << 14;
+  Random r(4);
+  WorstEvent worst;
+  for (const BrdfCase& c : brdfCases())
+    for (const Real height : {Real(1), Real(0.5), Real(0.1)})
+      for (const bool inside : {false, true}) {
+        const ScatterPoint p = c.at(atHeight(height, r), inside);
+        const MattPart matt = c.brdf->matt(p);
+        INFO(c.title());
+        REQUIRE(std::min({matt.albedo.r, matt.albedo.g, matt.albedo.b}) >= 0);
+        REQUIRE(maxComponent(matt.albedo) <= Real(1.0001));
+        if (matt.isAll) {
+          const Vec3 next = anywhere(r);
+          const Rgb f = next.z > 0 ? matt.albedo / kPi : Rgb{};
+          CHECK(relative(c.brdf->eval(p, next), f) < 1e-5);
+          continue;
+        }
+        // What is left for rays must not be light taken away, in the mean over directions.
+        double sum = 0, squares = 0;
+        for (int i = 0; i < kSamples; ++i)
+          if (const auto s = c.brdf->sample(p, numbers(r))) {
+            double rest = double(luminance(s->weight));
+            if (!s->specular && s->toNext.z > 0)
+              rest -= double(luminance(matt.albedo) / kPi * s->toNext.z / s->pdf);
+            sum += rest, squares += rest * rest;
+          }
+        const double mean = sum / kSamples,
+                     variance = std::max(squares / kSamples - mean * mean, 0.0);
+        worst.see(-mean / (5 * std::sqrt(variance / kSamples) + 0.01),
+                  [&] { return eventLine(c, p, {}, told("what is left", mean, 0)); });
+      }
+  check(worst);
+}
+
 TEST_CASE("what loses nothing by its model gives back all", "[brdf][energy]") {
   const Value tint = colourValue(0.9, 0.5, 0.1), white = colourValue(1, 1, 1);
   const std::pair<BrdfCase, Rgb> exact[] = {

@@ -161,3 +161,27 @@ TEST_CASE("many threads divide the same elements once", "[particle]") {
     REQUIRE(a.element(p).id == b.element(p).id);
   }
 }
+
+TEST_CASE("a particle's footprint is its share of what its light sends", "[particle]") {
+  const std::string floor =
+      "camera pinhole { location <0, 2, -5> look_at <0, 0, 0> }\n"
+      "quad { <-4, 0, -4>, <0, 0, 8>, <8, 0, 0> }\n";
+  const std::uint64_t n = 4096;
+  for (const char* light : {"light point { <0, 1, 0> intensity rgb 1 }",
+                            "light distant { direction -y irradiance rgb 1 }",
+                            "light spot { location <0, 1, 0> point_at <0, 0, 0> intensity rgb 1 "
+                            "radius 30 falloff 40 }"}) {
+    INFO(light);
+    HierarchySettings how = settings(Oracle::footprint);
+    how.maxLevel = 12, how.minArea = Real(1e-7), how.edges = false;
+    const Solution s = solve(floor + light + "\n", n, how);
+    double hits = 0, elements = 0;
+    for (ElementId e = 1; e < s.hierarchy->elements().size(); ++e)
+      if (s.hierarchy->elements()[e].hits() > 0)
+        hits += double(s.hierarchy->elements()[e].hits()), ++elements;
+    // N^(1/3) = 16 particles share a footprint; an element is a quarter to the whole of one.
+    CHECK(hits > 0.2 * double(n));
+    CHECK(hits / elements > 3);
+    CHECK(hits / elements < 20);
+  }
+}

@@ -64,6 +64,20 @@ class PathFootprint {
     frozen_[0] = Four{share, share, lens, lens};
   }
 
+  /// A particle. Of a light's four numbers two may move nothing, a point light's point or a distant
+  /// light's direction: they are left out.
+  void begin(const Particle& p, const RayJacobian& ray, std::uint64_t index, std::uint64_t declared,
+             const FootprintSettings& settings) noexcept {
+    RayJacobian moving = ray;
+    const auto isStill = [&](std::size_t j) {
+      return lengthSquared(ray.dOrigin[j]) + lengthSquared(ray.dDirection[j]) == 0;
+    };
+    if (p.variables == 2 && isStill(0) && isStill(1))
+      for (const std::size_t j : {0, 1})
+        moving.dOrigin[j] = ray.dOrigin[j + 2], moving.dDirection[j] = ray.dDirection[j + 2];
+    begin(moving, p.direction, p.variables, index, declared, settings);
+  }
+
   /// To a surface that the ray under way meets; `size` is the scene's, which no differential
   /// outgrows.
   void arrive(const Surface& s, Real size) noexcept {

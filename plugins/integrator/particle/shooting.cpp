@@ -112,8 +112,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
   Flux carried = inUnits(power, rounding);
   add(booking.emitted, carried);
   PathFootprint<> path;
-  path.begin(light.emissionDerivatives(u), particle->direction, particle->variables, index,
-             particles, footprint);
+  path.begin(*particle, light.emissionDerivatives(u), index, particles, footprint);
   path.chance(choice->chance);
 
   Ray ray = start(*particle, size);
