@@ -42,11 +42,11 @@ TEST_CASE("pieces agrees with its reference", "[images]") {
 }
 
 TEST_CASE("cornell converges to its reference", "[images][slow]") {
-  const Comparison c = againstReference("cornell", "--spp 1024");
+  const Comparison c = againstReference("cornell", "--spp 1024 -D Split=1");
   CHECK(worstMeanError(c) <= 0.001);
   CHECK(c.blockDifference <= 0.005);
   CHECK(c.relMseTrimmed <= 0.0004);
-  CHECK(worstMeanError(againstReference("cornell", "--spp 1024 -D Depth=7")) > 0.001);
+  CHECK(worstMeanError(againstReference("cornell", "--spp 1024 -D Split=1 -D Depth=7")) > 0.001);
 }
 
 TEST_CASE("pieces converges to its reference", "[images][slow]") {
