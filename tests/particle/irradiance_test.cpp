@@ -98,6 +98,15 @@ TEST_CASE("between vertices nothing jumps: not in a patch, not from one to the n
   // A crack would show as a step of some share of the highest value; a slope over 1e-5 is less.
   CHECK(jump <= 4 * slope + 1e-3 * highest);
   CHECK(jump < 0.01 * highest);
+
+  // Across the patches' edges: where cracks would be.
+  double crack = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Real t = Real(0.001 + 0.998 * number(random)), step = Real(1e-5);
+    crack = std::max(crack, std::abs(at(1 - step, t) - at(1 + step, t)));
+    crack = std::max(crack, std::abs(at(t - step, 1 - t - step) - at(t + step, 1 - t + step)));
+  }
+  CHECK(crack < 0.01 * highest);
 }
 
 TEST_CASE("the finest elements of neighbours differ by one level at most", "[particle]") {

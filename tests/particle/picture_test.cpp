@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plugin's pictures beside those of paths: of what is matt, glossy, let through, seen in
 // mirrors, under open sky.
+#include <fstream>
+
 #include "engine/render/session.h"
 #include "particle/solve.h"
+#include "support/temp_folder.h"
 
 using namespace vestige;
 using namespace vestige::particle;
@@ -32,6 +35,16 @@ Picture pictureOf(const std::string& text, const std::string& integrator, int sa
   return p;
 }
 
+/// Its normals lean by up to 55 degrees: what arrives is not what the flat face would say.
+std::string octahedron() {
+  static const test::TempFolder folder;
+  const std::string file = folder / "octahedron.obj";
+  std::ofstream(file) << "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n"
+                         "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+                         "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
+  return file;
+}
+
 const std::string kLamp =
     "light area { <0.5, 1.99, 0.5>, <1, 0, 0>, <0, 0, 1> radiance rgb <10, 9, 7> }\n";
 const std::string kWalls = box("brdf lambert { diffuse rgb <0.6, 0.5, 0.4> }") + kLamp;
@@ -55,6 +68,10 @@ const std::pair<const char*, std::string> kScenes[] = {
      "light distant { direction <0.3, -1, 0.4> irradiance rgb 2 }\n"
      "light environment { radiance rgb <0.2, 0.3, 0.4> }\n"
      "plane { y, 0 brdf lambert { diffuse rgb 0.5 } }\nsphere { <0, 1, 0>, 1 }\n"},
+    {"an octahedron with smooth normals",
+     kWalls + "mesh { \"" + octahedron() +
+         "\" smooth true smooth_angle 180 "
+         "brdf lambert { diffuse rgb 0.7 } scale 0.7 translate <1, 0.8, 1.1> }\n"},
     {"a mesh with smooth normals",
      kWalls + "mesh { \"" VESTIGE_SOURCE_DIR "/examples/assets/spot/spot_triangulated.obj\" smooth "
               "true brdf lambert { diffuse rgb 0.7 } scale 0.7 translate <1, 0.7, 1.1> }\n"}};
@@ -73,7 +90,9 @@ TEST_CASE("particles and paths agree on pictures", "[particle]") {
       double albedo = 0, wanted = 0;
       for (std::size_t i = 0; i < p.albedo.size(); ++i)
         albedo += p.albedo[i], wanted += paths.albedo[i];
-      CHECK(albedo == Approx(wanted).epsilon(0.03));
+      // A bent normal refuses some of the directions that paths draw.
+      const bool isBent = std::string(name).find("smooth normals") != std::string::npos;
+      CHECK(albedo == Approx(wanted).epsilon(isBent ? 0.1 : 0.03));
     }
   }
 }
@@ -101,15 +120,12 @@ TEST_CASE("clusters keep all flux, and keep it to what is matt", "[particle]") {
     const auto patches = s.scene->view().patches();
     for (std::size_t i = 0; i < patches.size(); ++i)
       for (const bool back : {false, true})
-        for (int k = 0; k < 4096; ++k)  // finer than the elements, but for a few
-          seen +=
-              double(light
-                         .at({int(i),
-                              back,
-                              {(Real(k % 64) + Real(0.5)) / 64, (Real(k / 64) + Real(0.5)) / 64}},
-                             false)
-                         .r) *
-              double(patches[i].area) / 4096;
+        for (int k = 0; k < 4096 && s.hierarchy->isMatt(patches[i].object);
+             ++k)  // finer than the elements, but for a few
+        {
+          const Vec2 uv = {(Real(k % 64) + Real(0.5)) / 64, (Real(k / 64) + Real(0.5)) / 64};
+          seen += double(light.at({int(i), back, uv}, false).r) * double(patches[i].area) / 4096;
+        }
     CHECK(seen == Approx(deposited).epsilon(0.01));
   }
 }
