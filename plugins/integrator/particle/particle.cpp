@@ -4,32 +4,21 @@
 // from the eye.
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001. Sec. 4.2, Fig. 4
-#include <vestige/path_report.h>
 #include <vestige/plugin.h>
 
 #include <chrono>
 #include <memory>
 
-#include "glossy_part.h"
-#include "irradiance.h"
 #include "solution_file.h"
+#include "viewing.h"
 
 namespace vestige::particle {
 namespace {
 
 /// Of `--time`, for particles; the rest is the picture's.
 constexpr double kShareOfTime = 0.5;
-/// Roulette on eye paths starts with this scattering.
-constexpr int kRouletteFrom = 4;
-constexpr Real kMaxSurvival = Real(0.95);
-constexpr int kMaxLayers = 64;
 /// Side of the smallest element, in diameters of the scene, unless the scene says.
 constexpr Real kSmallest = Real(2e-4);
-
-/// What is left of the light where an edge of an element is drawn.
-constexpr Real kWire = Real(0.3);
-
-enum class Show { smooth, elements, gather };
 
 /// N_eff^-1/M, at least 1/3, and the limit without which caustics nearly vanish [PD01 4.2].
 FootprintSettings particleDefaults() {
@@ -109,7 +98,7 @@ class ParticleIntegrator final : public Integrator {
                 .doc("of the smallest element (a square of 1/5000 of the scene's diameter)"),
             integer("max_level", 12).range(0, 16).doc("most divisions of a patch"),
             integer("memory", 1024)
-                .range(1, 1 << 20)
+                .range(1, 200'000)
                 .in("MiB")
                 .doc("for elements; once it is used up they are divided no more"),
             choice("show", {"smooth", "elements", "gather"})
@@ -120,8 +109,7 @@ class ParticleIntegrator final : public Integrator {
                      "paper's figure"),
             boolean("wires", false).doc("draws the elements' edges"),
             block("footprint", "footprint").doc("of particles (global, with limit 0.7)"),
-            text("save_solution", "")
-                .doc("file for the solution, to be seen again without particles"),
+            text("save_solution", "").doc("by --save-solution: keeps the light on the surfaces"),
             text("load_solution", "").doc("by --load-solution: files whose sum is seen")}};
   }
 
@@ -130,12 +118,6 @@ class ParticleIntegrator final : public Integrator {
         part_(std::uint64_t(v.integer(kPart))),
         parts_(std::uint64_t(v.integer(kParts))),
         samples_(int(v.integer(kSamples))),
-        depth_(int(v.integer(kDepth))),
-        show_(v.text(kShow) == "gather"     ? Show::gather
-              : v.text(kShow) == "elements" ? Show::elements
-                                            : Show::smooth),
-        glossy_(v.flag(kGlossy)),
-        wires_(v.flag(kWires)),
         footprint_(footprintSettings(v.block(kFootprint), Bound::global, particleDefaults())),
         save_(v.text(kSave)),
         load_(splitAtCommas(v.text(kLoad))) {
@@ -147,6 +129,12 @@ class ParticleIntegrator final : public Integrator {
         throw PluginError(row,
                           "solutions are named on the command line: --save-solution FILE, "
                           "--load-solution FILE");
+    const std::string& show = v.text(kShow);
+    view_.show = show == "gather"     ? Show::gather
+                 : show == "elements" ? Show::elements
+                                      : Show::smooth;
+    view_.glossy = v.flag(kGlossy), view_.wires = v.flag(kWires);
+    view_.depth = int(v.integer(kDepth));
     footprint_.deltas.fewest = 3;
     const bool isPaper = footprint_.shape == RegionShape::representative;
     area_ = (v.has(kArea) ? v.text(kArea) == "polygon" : isPaper) ? FootprintArea::polygon
@@ -163,7 +151,7 @@ class ParticleIntegrator final : public Integrator {
 
   int samples() const noexcept override { return samples_; }
 
-  bool usesJacobian() const noexcept override { return wires_; }
+  bool usesJacobian() const noexcept override { return view_.wires; }
 
   bool prepare(const Preparation& p) override {
     if (!save_.empty()) checkSolutionFile(save_);
@@ -171,7 +159,7 @@ class ParticleIntegrator final : public Integrator {
     const Bounds b = p.scene.bounds();
     if (settings.minArea < 0)
       settings.minArea = b.isEmpty() ? Real(0) : sqr(kSmallest * length(b.size()));
-    irradiance_ = {};
+    view_.light = {};
     hierarchy_ = std::make_unique<Hierarchy>(p.scene, settings);
     Booking booking;
     SolutionKey key{fingerprint(p.scene, *hierarchy_), 0, 0};
@@ -187,17 +175,12 @@ class ParticleIntegrator final : public Integrator {
     }
     if (!goesOn) return false;
     if (booking.particles > 0)
-      irradiance_ =
+      view_.light =
           Irradiance(p.scene, *hierarchy_, key.power * kFluxUnit / double(booking.particles));
     return true;
   }
 
-  Rgb estimate(PathContext& context) const noexcept override {
-    if (!carriesFootprint(context, FootprintSettings{})) return follow(context, nullptr);
-    PathFootprint<> footprint;
-    footprint.begin(context, FootprintSettings{});
-    return follow(context, &footprint);
-  }
+  Rgb estimate(PathContext& context) const noexcept override { return view_.radiance(context); }
 
  private:
   /// False if the user stopped it.
@@ -223,124 +206,15 @@ class ParticleIntegrator final : public Integrator {
     return true;
   }
 
-  /// An eye path: to the first matt surface, and through everything else.
-  Rgb follow(PathContext& c, PathFootprint<>* footprint) const noexcept {
-    const Real size = sizeOf(c.scene);
-    Ray ray = c.ray;
-    DrawnRay drawn{c.ray.origin};
-    Rgb radiance, throughput{1, 1, 1}, flux{1, 1, 1};
-    PathReport report(c);
-    bool gathers = show_ == Show::gather;
-    Surface s;
-    InputBuffer inputs;
-    Interaction x;
-    for (int edge = 1, layer = 0; edge <= depth_;) {
-      ++c.counters.rays;
-      if (!c.scene.intersect(ray, s)) {
-        report.gone("escape", ray.direction, throughput);
-        return radiance + throughput * filteredBackground(c.scene, drawn, ray.direction, footprint);
-      }
-      if (footprint) footprint->arrive(s, size);
-      radiance += throughput * metLight(c.scene, s, drawn);
-      c.scene.shade(s, -ray.direction, regionAt(c.scene, s, footprint), inputs, x);
-      const auto vertex = std::uint32_t(edge - 1);
-      const std::uint32_t dim = dimension::vertex(vertex);
-      if (x.opacity < 1) {
-        const std::uint32_t own = dim + dimension::kOpacity + 0x10000u * std::uint32_t(layer);
-        const bool stays = c.sampler.number(own) < x.opacity;
-        if (footprint) footprint->chance(stays ? x.opacity : 1 - x.opacity);
-        if (!stays) {
-          report.end(s, x.toPrev, throughput, "pass", footprint);
-          if (++layer == kMaxLayers) break;
-          ray = spawnRay(s, ray.direction);
-          continue;
-        }
-      }
-      layer = 0;
-      const Place place = placeOf(s, x.toPrev);
-      if (edge == 1 && c.aovs) tellFirst(*c.aovs, s, x, place);
-
-      const MattPart matt = x.brdf ? x.brdf->matt(x.point) : MattPart{{}, true};
-      const bool isKept = !isBlack(matt.albedo) && irradiance_.covers(place);
-      const bool isShown = isKept && !gathers;
-      if (isShown) {
-        const Rgb e = irradiance_.at(place, show_ != Show::elements);
-        radiance += wired(c, edge, place) / kPi * throughput * matt.albedo * e;
-        if (edge == 1 && c.aovs) c.aovs->albedo = matt.albedo;
-      }
-      const bool isAll = matt.isAll && (isShown || isBlack(matt.albedo));
-      if (isAll || edge == depth_ || (!glossy_ && !(isKept && gathers))) {
-        report.rest(s, x.toPrev, throughput, footprint);
-        break;
-      }
-      const GlossyPart rest(*x.brdf, matt.albedo);
-      if (isShown) x.brdf = &rest;
-      if (isKept) gathers = false;
-
-      radiance += throughput * directLight(c, s, x, vertex, c.sampler.index());
-      const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe),
-                                   c.sampler.pair(dim + dimension::kDirection)};
-      const std::optional<Scatter> next = drawScatter(x, numbers);
-      if (edge == 1 && c.aovs && next) c.aovs->albedo += next->local.weight;
-      if (!next || isBlack(next->weight)) {
-        report.end(s, x.toPrev, throughput, "absorbed", footprint);
-        break;
-      }
-      report.scatter(s, x.toPrev, throughput, *next, footprint);
-      throughput *= next->weight, flux *= next->local.weight;
-      drawn = {s.position, next->local.specular ? kInfinity : next->local.pdf};
-      if (footprint) footprint->scatter(s, x, *next, numbers);
-      report.left(footprint);
-      if (edge >= kRouletteFrom) {
-        const Real left = std::max({std::abs(flux.r), std::abs(flux.g), std::abs(flux.b)});
-        const Real survival = std::min(kMaxSurvival, std::sqrt(left));
-        if (!(c.sampler.number(dim + dimension::kRoulette) < survival)) {
-          report.gone("roulette", next->toNext, throughput);
-          break;
-        }
-        throughput = throughput / survival, flux = flux / survival;
-        if (footprint) footprint->chance(survival);
-      }
-      ray = spawnRay(s, next->toNext);
-      ++edge;
-    }
-    return radiance;
-  }
-
-  void tellFirst(Aovs& aovs, const Surface& s, const Interaction& x,
-                 const Place& place) const noexcept {
-    writeAovs(aovs, s, x);
-    const ElementInfo e = irradiance_.element(place);
-    aovs.elementLevel = Real(e.level), aovs.elementId = Real(e.id);
-  }
-
-  /// Dark where another element lies one pixel further.
-  Real wired(PathContext& c, int edge, const Place& place) const noexcept {
-    if (!wires_ || edge > 1) return 1;
-    const std::uint32_t own = irradiance_.element(place).id;
-    for (const std::size_t j : {0, 1}) {
-      const Ray beside{c.ray.origin + c.jacobian.dOrigin[j],
-                       normalize(c.ray.direction + c.jacobian.dDirection[j]), 0, kInfinity};
-      Surface s;
-      ++c.counters.rays;
-      if (!c.scene.intersect(beside, s) ||
-          irradiance_.element(placeOf(s, -beside.direction)).id != own)
-        return kWire;
-    }
-    return 1;
-  }
-
   std::uint64_t particles_, part_, parts_;
-  int samples_, depth_;
+  int samples_;
   HierarchySettings elements_;
   FootprintArea area_ = FootprintArea::covariance;
-  Show show_;
-  bool glossy_, wires_;
   FootprintSettings footprint_;
   std::string save_;
   std::vector<std::string> load_;
   std::unique_ptr<Hierarchy> hierarchy_;
-  Irradiance irradiance_;
+  Viewing view_;
 };
 
 }  // namespace
