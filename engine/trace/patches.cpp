@@ -20,14 +20,21 @@ double clippedArea(Vec2 low, Vec2 high) noexcept {
   return corner(u0, v0) - corner(u1, v0) - corner(u0, v1) + corner(u1, v1);
 }
 
-/// Nodes and weights of Gauss and Legendre's rule on [0,1], eight of them
+/// Gauss and Legendre's rule on [-1, 1]: half of its nodes, the others are their negatives
 /// [Abramowitz, Stegun 1964, table 25.4].
-constexpr double kNodes[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                              0.9602898564975363};
-constexpr double kWeights[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                0.1012285362903763};
+struct Rule {
+  int nodes;
+  double at[4], weight[4];
+};
+constexpr Rule kEight = {
+    8,
+    {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363},
+    {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763}};
+constexpr Rule kTwo = {2, {0.5773502691896257}, {1}};
 /// Panels along each side of a face: the area element of a squashed sphere is smooth but steep.
 constexpr double kPanels = 4;
+/// Parts no wider than this are nearly flat.
+constexpr double kSmall = 1. / 16;
 
 /// Integral of |dP/du x dP/dv| and of the normal over a part of a face, world.
 struct Integral {
@@ -36,20 +43,22 @@ struct Integral {
 };
 
 template <class Visit>
-void quadrature(double low, double high, Visit visit) noexcept {
+void quadrature(const Rule& rule, double low, double high, Visit visit) noexcept {
   const int panels = std::max(1, int(std::ceil(kPanels * (high - low))));
   const double h = (high - low) / panels / 2;
   for (int p = 0; p < panels; ++p)
-    for (int k = 0; k < 8; ++k) {
-      const double x = k < 4 ? -kNodes[k] : kNodes[k - 4];
-      visit(low + h * (2 * p + 1 + x), h * kWeights[k % 4]);
+    for (int k = 0; k < rule.nodes; ++k) {
+      const double x = k % 2 ? -rule.at[k / 2] : rule.at[k / 2];
+      visit(low + h * (2 * p + 1 + x), h * rule.weight[k / 2]);
     }
 }
 
 Integral integrate(const Item& item, int face, Vec2 low, Vec2 high) noexcept {
   Integral sum;
-  quadrature(low.x, high.x, [&](double u, double wu) {
-    quadrature(low.y, high.y, [&](double v, double wv) {
+  const Rule& rule =
+      std::max(double(high.x - low.x), double(high.y - low.y)) <= kSmall ? kTwo : kEight;
+  quadrature(rule, low.x, high.x, [&](double u, double wu) {
+    quadrature(rule, low.y, high.y, [&](double v, double wv) {
       const SurfacePoint s = item.place.world(item.placement.shape->at({Real(u), Real(v)}, face));
       const double dA = wu * wv * length(cross(s.dPdu, s.dPdv));
       sum.area += dA;

@@ -24,6 +24,7 @@ struct Element {
   std::atomic<std::int64_t> flux[3] = {};      ///< that arrived here and in no child
   std::atomic<std::uint32_t> quarter[4] = {};  ///< how many particles brought it, by part
   std::atomic<ElementId> children{0};          ///< the first of four; 0: not divided
+  std::uint32_t judged = 0;                    ///< hits when it was last asked whether they vary
   ElementId parent = 0;                        ///< 0: nothing above
   float area = 0;                              ///< world, scene units squared
   std::int8_t level = 0;  ///< divisions below the patch; -1: a cluster of patches

@@ -214,7 +214,10 @@ void Hierarchy::handDown(ElementId id, int patch, const Cell& cell) {
 
 void Hierarchy::judge(ElementId id, int patch, const Cell& cell) {
   Element& e = elements_[id];
-  if (!e.varies && mayDivide(e) && e.hits() >= kLeastHits) {
+  // Not in each pass: a few hits more say nothing new.
+  const std::uint64_t hits = e.hits();
+  if (!e.varies && hits >= kLeastHits && hits > e.judged + e.judged / 16 && mayDivide(e)) {
+    e.judged = std::uint32_t(hits);
     double areas[4];
     areasOfParts(patch, cell, areas);
     if (isUneven(e, areas)) handDown(id, patch, cell);
