@@ -55,6 +55,8 @@ Finding isCreated(const Plugin& plugin) {
 
 Finding isCreatedAsItsKind(const Plugin& plugin) {
   if (plugin.kind == "brdf") return isCreated<Brdf>(plugin);
+  if (plugin.kind == "light") return isCreated<Light>(plugin);
+  if (plugin.kind == "camera") return isCreated<Camera>(plugin);
   if (plugin.kind == "pigment") return isCreated<Pigment>(plugin);
   if (plugin.kind == "shape") return isCreated<Shape>(plugin);
   return isCreated<Integrator>(plugin);
@@ -67,6 +69,10 @@ Judgement judgePlugin(const Plugin& plugin, const Effort& effort) {
   const auto first = {verdictOf(schemaIsSound(plugin)), verdictOf(isCreatedAsItsKind(plugin))};
   if (plugin.kind == "brdf")
     j = judgeBrdf(brdfCases(plugin, 4, effort.seed), plugin.schema, effort);
+  else if (plugin.kind == "light")
+    j = judgeLight(lightCases(plugin, 6, effort.seed), effort);
+  else if (plugin.kind == "camera")
+    j = judgeCamera(cameraCases(plugin, 6, effort.seed), effort);
   else
     j.unchecked = "there are no tests for the methods of a " + plugin.kind +
                   ": only its schema and its creation were checked";

@@ -6,6 +6,8 @@
 //     if (const Verdict* v = j.failure()) std::cout << v->sentence << '\n' << v->worst << '\n';
 #pragma once
 #include "judge/brdf_tests.h"
+#include "judge/camera_tests.h"
+#include "judge/light_tests.h"
 
 namespace vestige::judge {
 
@@ -16,5 +18,8 @@ Judgement judgePlugin(const Plugin& plugin, const Effort& effort);
 /// `schema` tells which inputs a texture may take out of their range; null: none. The same brdf
 /// under several sets of parameters.
 Judgement judgeBrdf(const BrdfCases& cases, const Schema* schema, const Effort& effort);
+/// The same light, or camera, under several sets of parameters.
+Judgement judgeLight(const LightCases& cases, const Effort& effort);
+Judgement judgeCamera(const CameraCases& cases, const Effort& effort);
 
 }  // namespace vestige::judge
