@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The judge blames what is wrong, by name, and nothing else.
+#include "blamed.h"
 #include "broken.h"
-#include "judge/judge.h"
 #include "support/brdf_cases.h"
-#include "support/catch.h"
 
 using namespace vestige;
 using namespace vestige::test;
 
 namespace {
-
-std::string failures(const judge::Judgement& j) {
-  std::string text;
-  for (const judge::Verdict& v : j.verdicts)
-    if (!v.passed) text += v.test + ": " + v.sentence + "\n    " + v.worst + "\n";
-  return text;
-}
 
 const Value kGrey = colourValue(0.7, 0.7, 0.7);
 
@@ -26,15 +18,6 @@ judge::Judgement judged(const std::string& name, const Settings& settings, More.
   c.brdf = std::make_shared<Broken>(c.brdf, more...);
   c.plugin = "broken";
   return judge::judgeBrdf({c}, nullptr, {});
-}
-
-void checkBlamed(const judge::Judgement& j, const std::string& method) {
-  INFO(failures(j));
-  REQUIRE(j.failure());
-  CHECK(j.failure()->method == method);
-  CHECK_THAT(j.failure()->sentence, containsText(method + " is wrong: "));
-  CHECK(j.failure()->excess > 1);
-  CHECK_THAT(j.failure()->worst, containsText("brdf broken {"));
 }
 
 template <class How>
