@@ -34,6 +34,9 @@ TEST_CASE("plugin test: a wrong density is named, with a report", "[app][plugin]
   CHECK_THAT(r.out, containsText("pdf() is wrong: with {"));
   CHECK_THAT(r.out, containsText("sample() lands 2 times as often as pdf() says"));
   CHECK_THAT(r.out, containsText("toPrev <"));
+  // It has no derivatives of its own, so nobody blames it for them.
+  CHECK_THAT(r.out, !containsText("lobePdf is wrong"));
+  CHECK_THAT(r.out, containsText("leaves derivatives to the engine's finite differences"));
   CHECK(looksLikePicture(folder / "report/density.png"));
   CHECK(looksLikePicture(folder / "report/derivative.png"));
   std::ifstream file(folder / "report/report.txt");
