@@ -5,30 +5,31 @@
 namespace vestige::judge {
 namespace {
 
-/// Where a ray meets a triangle of the light first; distance -1: nowhere.
-LightHit hitOn(const TriangleMesh& mesh, Vec3 from, Vec3 d) {
-  LightHit hit{from, d, -1, {}, {}, {}};
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]] - a, c = mesh.positions[t[2]] - a;
-    const Vec3 across = cross(b, c);
-    const Real distance = dot(a - from, across) / dot(d, across);
-    const Vec3 q = from + distance * d - a;
-    const Real x = dot(cross(q, c), across) / lengthSquared(across);
-    const Real y = dot(cross(b, q), across) / lengthSquared(across);
-    if (!(distance > 0 && x >= 0 && y >= 0 && x + y <= 1)) continue;
-    if (hit.distance > 0 && hit.distance < distance) continue;
-    hit.distance = distance, hit.position = from + distance * d, hit.normal = normalize(across);
-    if (!mesh.uvs.empty())
-      hit.uv = (1 - x - y) * mesh.uvs[t[0]] + x * mesh.uvs[t[1]] + y * mesh.uvs[t[2]];
-  }
-  return hit;
+/// Density of a direction at infinity, as a ray that leaves the scene asks for it.
+double densityTowards(const Light& light, Vec3 from, Vec3 d) {
+  return double(light.pdf({from, d, kInfinity, {}, {}, {}}));
 }
 
-/// Density of a direction, as a ray that meets the light by chance asks for it.
-double densityTowards(const Light& light, Vec3 from, Vec3 d) {
-  const LightHit hit = light.geometry() ? hitOn(*light.geometry(), from, d)
-                                        : LightHit{from, d, kInfinity, {}, {}, {}};
-  return hit.distance > 0 ? double(light.pdf(hit)) : 0;
+/// Integral of the density over each cell, by points of the light's surface: a cell's quadrature
+/// would miss the sharp edges of a polygon.
+std::vector<double> overSurface(const Light& light, Vec3 from, const SpherePartition& cells) {
+  constexpr int kFine = 400;
+  std::vector<double> sums(cells.cells(), 0);
+  const TriangleMesh& mesh = *light.geometry();
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]] - a, c = mesh.positions[t[2]] - a;
+    const Vec3 across = cross(b, c), normal = normalize(across);
+    for (int i = 0; i < kFine * kFine; ++i) {
+      Real x = (i % kFine + Real(0.5)) / kFine, y = (i / kFine + Real(0.5)) / kFine;
+      if (x + y > 1) x = 1 - x, y = 1 - y;  // each half of the parallelogram once
+      const Vec3 p = a + x * b + y * c, d = normalize(p - from);
+      const LightHit hit = {from, d, length(p - from), p, normal, {x, y}};
+      sums[cells.cellOf(d)] += double(light.pdf(hit) * std::abs(dot(normal, d)) /
+                                      sqr(hit.distance) * length(across) / 2) /
+                               (kFine * kFine);
+    }
+  }
+  return sums;
 }
 
 std::vector<Vec3> drawn(const Light& light, Vec3 from, int n, Random& r) {
@@ -46,7 +47,9 @@ void seeDistribution(LightDensityFindings& f, const LightCase& c, Vec3 from, dou
   const std::vector<Vec3> samples = drawn(*c.light, from, n, r);
   if (samples.empty()) return;
   std::vector<double> expected =
-      cells.integrate([&](Vec3 d) { return densityTowards(*c.light, from, d); });
+      c.light->geometry()
+          ? overSurface(*c.light, from, cells)
+          : cells.integrate([&](Vec3 d) { return densityTowards(*c.light, from, d); });
   double mass = 0;
   for (double& e : expected) mass += e, e *= n;
   std::vector<double> seen(cells.cells(), 0);
