@@ -19,7 +19,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const Words kCommands = {"render", "inspect", "check", "describe", "compare", "help"};
+const Words kCommands = {"render", "inspect", "check", "describe", "compare", "plugin", "help"};
 
 bool isCommand(const std::string& word) {
   return std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end();
@@ -44,7 +44,7 @@ Words withCommand(Words words) {
     throw Failure(
         kCommandLineWrong,
         fmt::format("there is no command and no scene file '{}'; {}", words[0],
-                    near.empty() ? "the commands are render, inspect, check, describe, compare"
+                    near.empty() ? "the commands are render, inspect, check, describe, compare, plugin"
                                  : fmt::format("did you mean '{}'?", near)));
   }
   words.insert(words.begin(), "render");
@@ -100,6 +100,7 @@ int run(Words words) {
   addCheck(program, chosen);
   addDescribe(program, chosen);
   addCompare(program, chosen);
+  addPlugin(program, chosen);
   program.require_subcommand(0, 1);
   program.formatter_fn([](const CLI::App*, std::string, CLI::AppFormatMode) { return helpText(); });
 

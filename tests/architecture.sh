@@ -26,8 +26,9 @@ includes engine/image "$std|$system|$sdk|\"engine/image/|<fmt/|<OpenImageIO/|<Op
 includes engine/film "$std|$system|$sdk|\"engine/film/"
 includes engine/scene "$std|$system|$sdk|\"engine/(scene|trace|image)/|<fmt/"
 includes engine/render "$std|$system|$sdk|\"engine/"
+includes judge "$std|$system|$sdk|\"(judge|engine)/|<fmt/"
 includes lang "$std|$system|$sdk|\"lang/|<fmt/"
-includes app "$std|$system|$sdk|\"(app|engine|lang)/|<fmt/|<CLI/|<nlohmann/"
+includes app "$std|$system|$sdk|\"(app|engine|judge|lang)/|<fmt/|<CLI/|<nlohmann/"
 
 # A plugin sees the SDK and, if it is a folder, its own files; one of them brings a library.
 for kind in plugins/*/; do

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The derivatives that every BRDF owes: of its sampled direction by the random numbers and by
 // toPrev, and of log f. Area identity and five-point differences, on every BRDF library found.
+#include "judge/brdf_tests.h"
 #include "support/brdf_events.h"
 
 using namespace vestige;
@@ -8,159 +9,30 @@ using namespace vestige::test;
 
 namespace {
 
-constexpr double kMapStep = kDouble ? 1e-3 : 1e-2;
-constexpr double kMapTolerance = kDouble ? 1e-6 : 4e-3;
-
-/// Next to total reflection derivatives have no bound, and plugins cut them (kMinRefractedCosine):
-/// the one place where they may differ from differences.
-constexpr double kCut = 3e3;
-
-/// toNext of one lobe, as a map from anything that moves an event a little.
-std::optional<Vec3> within(const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, int lobe) {
-  const auto s = c.brdf->sample(p, n);
-  return s && s->lobe == lobe ? std::optional(s->toNext) : std::nullopt;
+/// Every set of parameters at 2000 events, and 1000 random sets of each plugin at ten.
+template <class Test>
+void checkConfigurations(const Test& test) {
+  check(test(brdfCases(), {.samples = 32000}));
+  check(test(randomBrdfCases(1000), {.samples = 160}));
 }
 
 }  // namespace
 
 TEST_CASE("the derivative's area is the density's inverse", "[brdf][derivatives]") {
-  WorstEvent worst;
-  forConfigurations([&](const BrdfCase& c, auto& p, ScatterNumbers n, Random&) {
-    const auto s = c.brdf->sample(p, n);
-    if (!s) return;
-    const Mat3x2 du = c.brdf->sampleDerivatives(p, n).du;
-    const double area = double(length(cross(du.c[0], du.c[1])) * s->lobePdf);
-    if (s->specular) {
-      worst.see(area > 0 ? 2 : 0, [&] { return eventLine(c, p, n, "specular, but du is not 0"); });
-      return;
-    }
-    // Columns that are almost parallel cancel in their product.
-    const double stretch = double(length(du.c[0]) * length(du.c[1]) * s->lobePdf);
-    const double allowed = (kDouble ? 1e-9 : 1e-3) + 20 * kEpsilon * stretch;
-    worst.see(std::abs(area - 1) / allowed,
-              [&] { return eventLine(c, p, n, told("|du0 x du1| lobePdf", area, 1)); });
-  });
-  check(worst);
+  checkConfigurations(judge::areaIsInverseDensity);
 }
 
 TEST_CASE("du is the derivative of the sampling map by its numbers", "[brdf][derivatives]") {
-  WorstEvent worst;
-  int asked = 0, judged = 0;
-  forConfigurations([&](const BrdfCase& c, auto& p, ScatterNumbers n, Random& r) {
-    const auto s = c.brdf->sample(p, n);
-    if (!s || s->specular || !differsSmoothly(n.u, Real(0.03))) return;
-    const Mat3x2 du = c.brdf->sampleDerivatives(p, n).du;
-    const double size = double(std::max(length(du.c[0]), length(du.c[1])));
-    if (c.hasInside && size > kCut) return;
-    const double angle = 2 * double(kPi * r.number());
-    const Vec2 along = {Real(std::cos(angle)), Real(std::sin(angle))};
-    const auto map = [&](double h) {
-      return within(c, p, {n.lobe, n.u + Real(h) * along}, s->lobe);
-    };
-    ++asked;
-    const auto expected = trustedDifference(map, kMapStep, kMapTolerance * size);
-    if (!expected) return;
-    ++judged;
-    worst.see(sizeOf(du * along - *expected) / (kMapTolerance * size), [&] {
-      return eventLine(c, p, n, told("|du|", sizeOf(du * along), sizeOf(*expected)));
-    });
-  });
-  check(worst);
-  CHECK(judged > asked / 3);
+  checkConfigurations(judge::duIsTheDerivative);
 }
 
 TEST_CASE("dPrev is the derivative of the sampling map by toPrev", "[brdf][derivatives]") {
   // A lobe built in a frame around its axis may turn that frame as it likes; the derivative is the
   // one without spin, so the frame's own spin is taken out of the differences. A lobe that is not
   // built so has no spin to take out. Which of the two a lobe is, it has to be at every event.
-  std::map<std::string, std::array<WorstEvent, 2>> lobes;
-  int asked = 0, judged = 0;
-  forConfigurations([&](const BrdfCase& c, auto& p, ScatterNumbers n, Random& r) {
-    const auto s = c.brdf->sample(p, n);
-    if (!s || p.toPrev.z < Real(0.05)) return;
-    const ScatterJacobian j = c.brdf->sampleDerivatives(p, n);
-    const Vec3 along = tangent(p.toPrev, 2 * double(kPi * r.number()));
-    const auto moved = [&](double h) { return c.at(turned(p.toPrev, along, h), p.inside); };
-    const auto asIs = [&](double h) { return within(c, moved(h), n, s->lobe); };
-    const auto frame = lobeFrame(*c.brdf, p, n.lobe);
-    const auto unspun = [&](double h) -> std::optional<Vec3> {
-      const auto toNext = asIs(h);
-      const auto there = lobeFrame(*c.brdf, moved(h), n.lobe);
-      if (!toNext || !there || !frame) return std::nullopt;
-      const Vec3 local = there->toLocal(*toNext);
-      return transport(frame->n, there->n, frame->toWorld(local));
-    };
-    const Vec3 found = j.dPrev * along;
-    if (c.hasInside && sizeOf(found) > kCut) return;
-    const double step = kMapStep * double(p.toPrev.z);
-    const double allowed = kMapTolerance * std::max(1.0, sizeOf(found));
-    auto& [direct, transported] = lobes[c.plugin + " lobe " + std::to_string(s->lobe)];
-    const auto judge = [&](WorstEvent& worst, const std::optional<Vec3>& expected) {
-      if (!expected) return;
-      worst.see(sizeOf(found - *expected) / allowed, [&] {
-        std::ostringstream text;
-        text << "dPrev " << along << " gives " << found << ", expected " << *expected;
-        return eventLine(c, p, n, text.str());
-      });
-    };
-    ++asked;
-    const auto plain = trustedDifference(asIs, step, allowed);
-    judged += plain.has_value();
-    judge(direct, plain);
-    if (frame && !s->specular) judge(transported, trustedDifference(unspun, step, allowed));
-  });
-  CHECK(judged > asked / 3);
-  for (const auto& [lobe, worst] : lobes) {
-    INFO(lobe);
-    const bool spins = worst[1].events > 0 && worst[1].error < worst[0].error;
-    check(worst[spins ? 1 : 0]);
-  }
+  checkConfigurations(judge::dPrevIsTheDerivative);
 }
 
 TEST_CASE("logGradient is the derivative of log f", "[brdf][derivatives]") {
-  WorstEvent worst;
-  int asked = 0, judged = 0;
-  forConfigurations([&](const BrdfCase& c, auto& p, ScatterNumbers n, Random& r) {
-    Vec3 toNext = anywhere(r);  // as a light would choose it; or as the BRDF does
-    if (r.number() < Real(0.5))
-      if (const auto s = c.brdf->sample(p, n)) toNext = s->toNext;
-    const LogGradient g = c.brdf->logGradient(p, toNext);
-    if (!(luminance(c.brdf->eval(p, toNext)) > 0)) {
-      const double size = sizeOf(g.dPrev) + sizeOf(g.dNext);
-      worst.see(size > 0 ? 2 : 0, [&] { return eventLine(c, p, n, "f is zero, its slope not"); });
-      return;
-    }
-    const double sharp = std::sqrt(double(c.brdf->pdf(p, toNext)));
-    for (const bool next : {false, true}) {
-      const Vec3 from = next ? toNext : p.toPrev;
-      const Vec3 along = tangent(from, 2 * double(kPi * r.number()));
-      const auto logF = [&](double h) -> std::optional<Real> {
-        const Vec3 d = turned(from, along, h);
-        const ScatterPoint q = next ? p : c.at(d, p.inside);
-        if (q.toPrev.z <= 0) return std::nullopt;
-        const Real f = luminance(c.brdf->eval(q, next ? d : toNext));
-        return f > Real(1e-25) ? std::optional(std::log(f)) : std::nullopt;
-      };
-      const double found = double(dot(next ? g.dNext : g.dPrev, along));
-      if (c.hasInside && std::abs(found) > kCut) continue;
-      // A step is a fraction of the lobe's width, or of the height above the horizon.
-      const double width = 1 / (1 + sharp + std::abs(found) + 1 / sizeOf(from.z));
-      const double step = (kDouble ? 1e-2 : 0.1) * width;
-      const double allowed = kMapTolerance / width;
-      const auto f = [&](const ScatterPoint& q, Vec3 d) { return luminance(c.brdf->eval(q, d)); };
-      const double noise = 2 + wobble(p, toNext, f) / kEpsilon;
-      ++asked;
-      const auto expected = trustedDifference(logF, step, allowed, noise);
-      if (!expected) continue;
-      ++judged;
-      worst.see(std::abs(found - double(*expected)) / allowed, [&] {
-        std::ostringstream text;
-        text << told(next ? "slope by next" : "slope by prev", found, double(*expected))
-             << ", toNext " << toNext;
-        return eventLine(c, p, n, text.str());
-      });
-    }
-  });
-  check(worst);
-  CHECK(judged > asked / 3);
+  checkConfigurations(judge::logGradientIsTheDerivative);
 }

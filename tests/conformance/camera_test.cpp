@@ -4,9 +4,8 @@
 #include <vestige/camera.h>
 
 #include "support/catch.h"
-#include "support/differences.h"
+#include "support/judge.h"
 #include "support/plugins.h"
-#include "support/sphere_grid.h"
 
 namespace vestige::test {
 namespace {
@@ -182,7 +181,7 @@ TEST_CASE("camera pdf: directions of uniform film points", "[camera]") {
     for (const Vec2 lens : {Vec2{Real(0.5), Real(0.5)}, Vec2{Real(0.95), Real(0.3)}}) {
       const Real aspect = Real(1.6);
       const Vec3 origin = cam->sample({{}, lens, aspect})->origin;
-      const GridVerdict v = judge(
+      const GridVerdict v = gridVerdict(
           {32, 16}, 64, 100000,
           [&] {
             return cam->sample({random.pair(), lens, aspect})->direction;

@@ -50,7 +50,7 @@ struct Share {
   void see(double e, const Describe& describe) {
     ++seen;
     if (e <= 1) return;
-    ++off, event = describe();
+    ++off, event = describe().line;
   }
   void check(double most) const {
     INFO(off << " of " << seen << " events, one is\n  " << event);

@@ -91,7 +91,7 @@ Agreement agreement(const std::string& plugin, const Skip& skip) {
 void check(const Agreement& a) {
   for (const WorstEvent* w : {&a.direction, &a.du, &a.dPrev, &a.value, &a.gradient}) {
     CHECK(w->events > 1000);
-    check(*w);
+    test::check(*w);
   }
 }
 

@@ -6,9 +6,8 @@
 #include <functional>
 
 #include "support/catch.h"
-#include "support/differences.h"
+#include "support/judge.h"
 #include "support/lights.h"
-#include "support/sphere_grid.h"
 
 namespace vestige::test {
 namespace {
@@ -70,7 +69,7 @@ TEST_CASE("light sample and pdf: directions against their density", "[light]") {
       if (const auto s = c.light->sample(from, random.pair()))
         drawn.push_back(c.toImage * s->hit.toLight);
     std::size_t next = 0;
-    const GridVerdict v = judge(
+    const GridVerdict v = gridVerdict(
         c.grid, c.fine, int(drawn.size()), [&] { return drawn[next++]; },
         [&](Vec3 d) {
           const LightHit hit = hitOn(*c.light, from, transpose(c.toImage) * d);

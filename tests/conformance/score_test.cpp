@@ -52,7 +52,7 @@ TEST_CASE("the score changes as the weight of samples does", "[conformance][foot
           if (!expected) return;
           ++judged;
           if (std::abs(found - double(*expected)) <= tolerance) return;
-          ++off, event = eventLine(c, p, n, told(what, found, double(*expected)));
+          ++off, event = eventLine(c, p, n, told(what, found, double(*expected))).line;
         };
         for (const int k : {0, 1})
           see(

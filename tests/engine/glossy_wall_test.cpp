@@ -7,7 +7,7 @@
 #include <vestige/pigment.h>
 
 #include "support/catch.h"
-#include "support/differences.h"
+#include "support/judge.h"
 #include "support/plugins.h"
 
 using namespace vestige;

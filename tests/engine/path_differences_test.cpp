@@ -12,7 +12,7 @@ TEST_CASE("differentials of whole paths are the paths' derivatives", "[engine][f
   const PathTracer tracer(*scene, 1);
   Random random(11);
   Judged result;
-  for (int i = 0; i < 400; ++i) judge(tracer, randomNumbers(random, 6), 6, result);
+  for (int i = 0; i < 400; ++i) judgePath(tracer, randomNumbers(random, 6), 6, result);
   INFO("asked " << result.asked << ", judged " << result.judged);
   INFO("dV median " << result.position.at(0.5) << ", 99 % " << result.position.at(0.99));
   INFO("dD median " << result.direction.at(0.5) << ", 99 % " << result.direction.at(0.99));

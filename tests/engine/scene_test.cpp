@@ -7,7 +7,7 @@
 
 #include "engine/render/session.h"
 #include "support/catch.h"
-#include "support/differences.h"
+#include "support/judge.h"
 #include "support/room_of_everything.h"
 #include "support/scenes.h"
 

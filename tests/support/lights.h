@@ -8,9 +8,8 @@
 #include <functional>
 #include <optional>
 
-#include "support/differences.h"
+#include "support/judge.h"
 #include "support/plugins.h"
-#include "support/sphere_grid.h"
 
 namespace vestige::test {
 

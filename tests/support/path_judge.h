@@ -2,7 +2,7 @@
 // Differentials of a path against differences of that path, number by number and vertex by vertex.
 #pragma once
 #include "support/catch.h"
-#include "support/differences.h"
+#include "support/judge.h"
 #include "support/path_trace.h"
 
 namespace vestige::test {
@@ -43,7 +43,8 @@ struct Judged {
 };
 
 /// Compares at every vertex of one random path.
-inline void judge(const PathTracer& tracer, const PathNumbers& n, int vertices, Judged& result) {
+inline void judgePath(const PathTracer& tracer, const PathNumbers& n, int vertices,
+                      Judged& result) {
   std::vector<PathDifferentials> carried;
   const auto base = tracer.trace(n, vertices, nullptr, &carried);
   int last = 0;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
-#include "support/trusted_difference.h"
+#include "support/judge.h"
 
 namespace vestige::test {
 

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "support/catch.h"
-#include "support/differences.h"
+#include "support/judge.h"
 #include "support/path_judge.h"
 #include "support/scenes.h"
 #include "support/temp_folder.h"

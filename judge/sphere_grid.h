@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "support/statistics.h"
+#include "judge/statistics.h"
 
-namespace vestige::test {
+namespace vestige::judge {
 
 /// `columns` of longitude from -pi, 0 towards +z and growing towards +x; `rows` of latitude from
 /// the south pole, y up.
@@ -48,7 +48,8 @@ struct GridVerdict {
 
 /// Directions drawn n times against their density, 1/sr.
 template <class Draw, class Density>
-GridVerdict judge(SphereGrid grid, int fine, int n, const Draw& draw, const Density& density) {
+GridVerdict gridVerdict(SphereGrid grid, int fine, int n, const Draw& draw,
+                        const Density& density) {
   std::vector<double> expected = grid.integrate(density, fine), seen(expected.size(), 0);
   double mass = 0;
   for (double& e : expected) mass += e, e *= n;
@@ -56,4 +57,4 @@ GridVerdict judge(SphereGrid grid, int fine, int n, const Draw& draw, const Dens
   return {mass, chiSquareTest(expected, seen)};
 }
 
-}  // namespace vestige::test
+}  // namespace vestige::judge

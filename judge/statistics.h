@@ -12,7 +12,7 @@
 #include <numeric>
 #include <vector>
 
-namespace vestige::test {
+namespace vestige::judge {
 
 /// Q(a, x) = Gamma(a, x) / Gamma(a), the upper incomplete gamma function [PTVF07 6.2]. a > 0.
 inline double gammaQ(double a, double x) {
@@ -62,6 +62,16 @@ inline double chiSquareTest(const std::vector<double>& expected, const std::vect
   }
   if (pooledSeen > 0 && pooledExpected < 1e-3) return 0;  // where there can be nothing
   return cells > 1 ? chiSquareTail(chiSquare, cells - 1) : 1;
+}
+
+/// Seen for each expected, in the bin where they differ by most standard deviations.
+inline double worstRatio(const std::vector<double>& expected, const std::vector<double>& seen) {
+  double most = 0, ratio = 1;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double e = std::max(expected[i], 1.0), deviations = std::abs(seen[i] - e) / std::sqrt(e);
+    if (deviations > most) most = deviations, ratio = seen[i] / e;
+  }
+  return ratio;
 }
 
 /// The sphere cut into cells of about equal probability, at the medians of a first set of samples
@@ -245,4 +255,4 @@ class SpherePartition {
   std::vector<Node> nodes_;
 };
 
-}  // namespace vestige::test
+}  // namespace vestige::judge

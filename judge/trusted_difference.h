@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace vestige::test {
+namespace vestige::judge {
 
 inline double sizeOf(Real x) { return std::abs(double(x)); }
 inline double sizeOf(Vec3 x) { return double(length(x)); }
@@ -63,4 +63,4 @@ inline std::optional<Frame> lobeFrame(const Brdf& brdf, const ScatterPoint& p, R
   return Frame::along(axis->toNext, Frame::along(axis->toNext, side->toNext).s);
 }
 
-}  // namespace vestige::test
+}  // namespace vestige::judge

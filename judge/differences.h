@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-namespace vestige::test {
+namespace vestige::judge {
 
 /// Step and tolerance (relative to max(1, |value|)) for numbers of order one [MATH 6, A1].
 #ifdef VESTIGE_DOUBLE
@@ -60,4 +60,4 @@ class Random {
   std::mt19937 engine_;
 };
 
-}  // namespace vestige::test
+}  // namespace vestige::judge

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same question has the same answer: asked again, in another order, by many threads at once.
+#include <chrono>
+
+#include "judge/brdf_tests.h"
+#include "judge/same_answers.h"
+
+namespace vestige::judge {
+namespace {
+
+struct Question {
+  const BrdfCase* brdf;
+  ScatterPoint at;
+  ScatterNumbers numbers;
+  Vec3 toNext;
+  bool isDrawn;  ///< sample() gives something, so it has derivatives
+};
+
+const char* const kMethods[] = {"sample()", "eval()", "pdf()", "sampleDerivatives()",
+                                "logGradient()"};
+
+/// One method's answer, as bits.
+Bits answer(const Question& q, std::size_t method) {
+  const Brdf& b = *q.brdf->brdf;
+  Bits bits;
+  switch (method) {
+    case 0:
+      if (const auto s = b.sample(q.at, q.numbers)) {
+        bits.add(s->toNext), bits.add(s->weight), bits.add(s->pdf), bits.add(s->lobePdf);
+        bits.add(s->lobeChance), bits.add(Real(s->lobe)), bits.add(Real(s->specular));
+      }
+      break;
+    case 1:
+      bits.add(b.eval(q.at, q.toNext));
+      break;
+    case 2:
+      bits.add(b.pdf(q.at, q.toNext));
+      break;
+    case 3:
+      if (q.isDrawn) {
+        const ScatterJacobian j = b.sampleDerivatives(q.at, q.numbers);
+        for (const Vec3 v : {j.du.c[0], j.du.c[1], j.dPrev.c[0], j.dPrev.c[1], j.dPrev.c[2]})
+          bits.add(v);
+      }
+      break;
+    default: {
+      const LogGradient g = b.logGradient(q.at, q.toNext);
+      bits.add(g.dPrev), bits.add(g.dNext);
+    }
+  }
+  return bits;
+}
+
+std::vector<Question> questions(const BrdfCases& cases, int each, unsigned seed) {
+  std::vector<Question> list;
+  forEvents(
+      cases, each,
+      [&](const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Random& r) {
+        list.push_back({&c, p, n, anywhere(r), c.brdf->sample(p, n).has_value()});
+      },
+      seed);
+  return list;
+}
+
+/// What a call takes, over all questions.
+template <class Call>
+double nanoseconds(const std::vector<Question>& list, const Call& call) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  int calls = 0;
+  Real sum = 0;  // so that nothing is optimised away
+  do {
+    for (const Question& q : list) sum += call(*q.brdf->brdf, q);
+    calls += int(list.size());
+  } while (Clock::now() - start < std::chrono::milliseconds(10));
+  const volatile Real keep = sum;
+  (void)keep;
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / calls;
+}
+
+}  // namespace
+
+Finding answersStayTheSame(const BrdfCases& cases, const Effort& effort) {
+  const int each = std::clamp(effort.events() / 8, 16, 4096);
+  const std::vector<Question> list = questions(cases, each, effort.seed);
+  const auto ask = [&](std::size_t i, std::size_t method) { return answer(list[i], method); };
+  return sameAnswers(list.size(), kMethods, ask, [&](std::size_t i, const std::string& what) {
+    return eventLine(*list[i].brdf, list[i].at, list[i].numbers, what);
+  });
+}
+
+std::vector<Timing> timings(const BrdfCases& cases) {
+  const std::vector<Question> list = questions(cases, 100, 1);
+  return {
+      {"sample()", nanoseconds(list,
+                               [](const Brdf& b, const Question& q) {
+                                 const auto s = b.sample(q.at, q.numbers);
+                                 return s ? s->pdf : 0;
+                               })},
+      {"eval()", nanoseconds(list, [](const Brdf& b,
+                                      const Question& q) { return b.eval(q.at, q.toNext).g; })},
+      {"pdf()",
+       nanoseconds(list, [](const Brdf& b, const Question& q) { return b.pdf(q.at, q.toNext); })},
+      {"sampleDerivatives()", nanoseconds(list,
+                                          [](const Brdf& b, const Question& q) {
+                                            return b.sampleDerivatives(q.at, q.numbers).du.c[0].x;
+                                          })},
+      {"logGradient()", nanoseconds(list, [](const Brdf& b, const Question& q) {
+         return b.logGradient(q.at, q.toNext).dNext.x;
+       })}};
+}
+
+}  // namespace vestige::judge

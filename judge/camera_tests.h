@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every camera has to keep of the contract in camera.h.
+#pragma once
+#include <vestige/camera.h>
+
+#include "judge/made.h"
+#include "judge/verdict.h"
+
+namespace vestige::judge {
+
+struct CameraCase {
+  std::string title;  ///< "camera pinhole { angle 40 }"
+  std::shared_ptr<const Camera> camera;
+};
+using CameraCases = std::vector<CameraCase>;
+
+/// Defaults, and random values for the numbers of the schema.
+CameraCases cameraCases(const Plugin& plugin, int sets, unsigned seed);
+
+/// Per unit of film and of lens coordinate.
+Finding cameraRaysAreDifferentiated(const CameraCases& cases, const Effort& effort);
+/// |dDirection[0] x dDirection[1]| pdf() = 1 wherever there is a density.
+Finding cameraAreaIsInverseDensity(const CameraCases& cases, const Effort& effort);
+Finding cameraIsNeverNan(const CameraCases& cases, const Effort& effort);
+Finding cameraAnswersStayTheSame(const CameraCases& cases, const Effort& effort);
+
+}  // namespace vestige::judge

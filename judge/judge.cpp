@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "judge/judge.h"
+
+#include <vestige/integrator.h>
+#include <vestige/pigment.h>
+#include <vestige/shape.h>
+
+#include <set>
+
+namespace vestige::judge {
+namespace {
+
+/// A promise that is kept or not, at no particular event.
+void see(Finding& f, bool kept, const std::string& what) {
+  f.worst.see(kept ? 0 : HUGE_VAL, [&] { return Event{what, "", what}; });
+}
+
+/// Rows have names of their own, documentation, and defaults within their ranges.
+Finding schemaIsSound(const Plugin& plugin) {
+  Finding f{"the schema is sound", "schema()"};
+  const Schema& schema = *plugin.schema;
+  see(f, schema.kind == plugin.kind && schema.name == plugin.name,
+      "it calls itself " + schema.kind + " '" + schema.name + "', the library " + plugin.kind +
+          " '" + plugin.name + "'");
+  see(f, int(schema.inputs.size()) + 2 <= kMaxInputs,
+      "it declares more inputs than " + std::to_string(kMaxInputs - 2));
+  std::set<std::string> names;
+  for (const auto* rows : {&schema.params, &schema.inputs})
+    for (const Parameter& row : *rows) {
+      see(f, !row.name.empty() && names.insert(row.name).second,
+          "two parameters are called '" + row.name + "'");
+      see(f, row.low <= row.high, "the range of '" + row.name + "' is empty");
+      if (row.initial.kind == Value::Kind::number)
+        see(f, row.initial.v[0] >= row.low && row.initial.v[0] <= row.high,
+            "the default of '" + row.name + "' is outside of its range");
+    }
+  return f;
+}
+
+/// Whether it can be created with its defaults. Rows that a scene must give have none: then it may
+/// refuse, in words.
+template <class Interface>
+Finding isCreated(const Plugin& plugin) {
+  Finding f{"it is created with its defaults", "the constructor"};
+  bool needs = false;
+  for (const Parameter& row : plugin.schema->params) needs = needs || row.required;
+  try {
+    if (!needs) make<Interface>(plugin);
+    see(f, true, "");
+  } catch (const std::runtime_error& e) {
+    see(f, std::string(e.what()).size() > 3, "it refuses its defaults without a reason");
+  }
+  return f;
+}
+
+Finding isCreatedAsItsKind(const Plugin& plugin) {
+  if (plugin.kind == "brdf") return isCreated<Brdf>(plugin);
+  if (plugin.kind == "light") return isCreated<Light>(plugin);
+  if (plugin.kind == "camera") return isCreated<Camera>(plugin);
+  if (plugin.kind == "pigment") return isCreated<Pigment>(plugin);
+  if (plugin.kind == "shape") return isCreated<Shape>(plugin);
+  return isCreated<Integrator>(plugin);
+}
+
+/// Drops what would judge the engine's differences, which stand in where a plugin has no
+/// derivatives: they err on the seams of a map, and slowly.
+void dropDifferences(Judgement& j, std::uint32_t lacks) {
+  const auto isDropped = [&](const Verdict& v) {
+    const auto names = [&](const char* word) { return v.test.find(word) != v.test.npos; };
+    const bool ofSample = names("|du.c0 x du.c1|") || names("du is") || names("dPrev is");
+    return ((lacks & kLacksSampleDerivatives) && ofSample) ||
+           ((lacks & kLacksLogGradient) && names("logGradient()"));
+  };
+  std::erase_if(j.verdicts, isDropped);
+  if (lacks)
+    j.unchecked = "it leaves derivatives to the engine's finite differences: those were not judged";
+}
+
+}  // namespace
+
+Judgement judgePlugin(const Plugin& plugin, const Effort& effort) {
+  Judgement j;
+  const auto first = {verdictOf(schemaIsSound(plugin)), verdictOf(isCreatedAsItsKind(plugin))};
+  if (plugin.kind == "brdf") {
+    j = judgeBrdf(brdfCases(plugin, 4, effort.seed), plugin.schema, effort);
+    dropDifferences(j, plugin.entry->lacks);
+  } else if (plugin.kind == "light")
+    j = judgeLight(lightCases(plugin, 6, effort.seed), effort);
+  else if (plugin.kind == "camera")
+    j = judgeCamera(cameraCases(plugin, 6, effort.seed), effort);
+  else
+    j.unchecked = "there are no tests for the methods of a " + plugin.kind +
+                  ": only its schema and its creation were checked";
+  j.verdicts.insert(j.verdicts.begin(), first.begin(), first.end());
+  return j;
+}
+
+}  // namespace vestige::judge

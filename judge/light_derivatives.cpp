@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "judge/light_tests.h"
+#include "judge/ray_differences.h"
+
+namespace vestige::judge {
+namespace {
+
+/// The borders of the square and the rim of a concentric disk, where derivatives have no bound.
+bool isSmoothAt(Vec2 u) {
+  return differsSmoothly(u, Real(0.025)) &&
+         std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1)) < Real(0.85);
+}
+Vec2 axis2(int k) { return k == 0 ? Vec2{1, 0} : Vec2{0, 1}; }
+Vec3 axis3(int k) {
+  Vec3 a;
+  a[k] = 1;
+  return a;
+}
+
+std::optional<Vec3> toLight(const Light& light, Vec3 from, Vec2 u) {
+  const auto s = light.sample(from, u);
+  return s ? std::optional(s->hit.toLight) : std::nullopt;
+}
+
+/// Log of the radiance, and of cos / distance^2 where a point of the light was drawn by area.
+std::optional<Real> logFactor(const Light& light, Vec3 from, Vec2 u) {
+  const auto s = light.sample(from, u);
+  if (!s) return std::nullopt;
+  const Real measure =
+      light.geometry() ? std::abs(dot(s->hit.normal, s->hit.toLight)) / sqr(s->hit.distance) : 1;
+  const Real f = luminance(s->radiance) * measure;
+  return f > Real(1e-20) ? std::optional(std::log(f)) : std::nullopt;
+}
+
+}  // namespace
+
+Finding lightAreaIsInverseDensity(const LightCases& cases, const Effort& effort) {
+  Finding f{"|du.c0 x du.c1| pdf = 1", "sampleDerivatives().du"};
+  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+    const auto s = c.light->sample(from, u);
+    if (!s || c.light->isDelta()) return;
+    const Mat3x2 du = c.light->sampleDerivatives(from, u).du;
+    const double area = double(length(cross(du.c[0], du.c[1])) * s->pdf);
+    const double stretch = double(length(du.c[0]) * length(du.c[1]) * s->pdf);
+    f.worst.see(std::abs(area - 1) / ((kDouble ? 1e-9 : 2e-3) + 50 * kEpsilon * stretch),
+                [&] { return lightEvent(c, from, u, told("|du0 x du1| pdf is", area, 1)); });
+  });
+  return f;
+}
+
+Finding lightDuIsTheDerivative(const LightCases& cases, const Effort& effort) {
+  Finding f{"du is the derivative of sample() by its numbers", "sampleDerivatives().du"};
+  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+    if (!c.light->sample(from, u) || !isSmoothAt(u)) return;
+    const LightJacobian j = c.light->sampleDerivatives(from, u);
+    for (const int k : {0, 1}) {
+      const auto map = [&](double h) { return toLight(*c.light, from, u + Real(h) * axis2(k)); };
+      seeDifference(f, map, j.du.c[k], 1, "du.c" + std::to_string(k),
+                    [&](const std::string& what) { return lightEvent(c, from, u, what); });
+    }
+  });
+  return f;
+}
+
+Finding lightFromIsTheDerivative(const LightCases& cases, const Effort& effort) {
+  Finding f{"dFrom is the derivative of sample() by from", "sampleDerivatives().dFrom"};
+  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+    if (!c.light->sample(from, u)) return;
+    const LightJacobian j = c.light->sampleDerivatives(from, u);
+    for (const int k : {0, 1, 2}) {
+      const auto map = [&](double h) { return toLight(*c.light, from + Real(h) * axis3(k), u); };
+      seeDifference(f, map, j.dFrom * axis3(k), 1, "dFrom.c" + std::to_string(k),
+                    [&](const std::string& what) { return lightEvent(c, from, u, what); });
+    }
+  });
+  return f;
+}
+
+Finding lightLogGradientIsTheDerivative(const LightCases& cases, const Effort& effort) {
+  Finding f{"logGradient() is the derivative of the log of the light's factor", "logGradient()"};
+  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+    const auto here = logFactor(*c.light, from, u);
+    if (!here || !isSmoothAt(u)) return;
+    const LightLogGradient g = c.light->logGradient(from, u);
+    const double noise = 1 + std::abs(double(*here));
+    const auto describe = [&](const std::string& what) { return lightEvent(c, from, u, what); };
+    for (int k = 0; k < 5; ++k) {
+      // As the first component of a vector, so that one comparison serves all.
+      const auto map = [&](double h) -> std::optional<Vec3> {
+        const Vec3 at = k < 2 ? from : from + Real(h) * axis3(k - 2);
+        const auto l = logFactor(*c.light, at, k < 2 ? u + Real(h) * axis2(k) : u);
+        return l ? std::optional(Vec3{*l, 0, 0}) : std::nullopt;
+      };
+      const Real found = k < 2 ? (k == 0 ? g.du.x : g.du.y) : g.dFrom[k - 2];
+      seeDifference(f, map, {found, 0, 0}, noise, k < 2 ? "du" : "dFrom", describe);
+    }
+  });
+  return f;
+}
+
+Finding emissionIsTheDerivative(const LightCases& cases, const Effort& effort) {
+  Finding f{"emissionDerivatives() are those of emit()", "emissionDerivatives()"};
+  forLightEvents(cases, effort, [&](const LightCase& c, Vec3, Vec2 point, Random& r) {
+    const EmissionNumbers u = {point, r.pair()};
+    const auto p = c.light->emit(u);
+    const Vec2 half = {2 * u.direction.x - std::floor(2 * u.direction.x), u.direction.y};
+    if (!p || !isSmoothAt(u.point) || !isSmoothAt(u.direction) || !isSmoothAt(half)) return;
+    if (std::abs(p->direction.z) < Real(0.2)) return;  // Frame::around jumps at z = 0
+    const RayJacobian j = c.light->emissionDerivatives(u);
+    const auto describe = [&](const std::string& what) {
+      std::ostringstream text;
+      text.precision(9);
+      text << what << "; direction numbers " << u.direction;
+      Event e = lightEvent(c, {}, u.point, text.str());
+      e.where = "", e.what = what;
+      return e;
+    };
+    for (int k = 0; k < 4; ++k) {
+      const auto moved = [&](double h) {
+        EmissionNumbers v = u;
+        (k < 2 ? v.point : v.direction) = (k < 2 ? u.point : u.direction) + Real(h) * axis2(k % 2);
+        return c.light->emit(v);
+      };
+      const auto direction = [&](double h) -> std::optional<Vec3> {
+        const auto q = moved(h);
+        return q ? std::optional(q->direction) : std::nullopt;
+      };
+      // A disk that turns with the direction is free of spin in the derivative: the frame's own is
+      // taken out.
+      const auto origin = [&](double h) -> std::optional<Vec3> {
+        const auto q = moved(h);
+        if (!q) return std::nullopt;
+        if (k < 2 || !c.light->isInfinite()) return q->origin;
+        const Vec3 centre = kLightScene.centre();
+        const Frame there = Frame::around(q->direction), here = Frame::around(p->direction);
+        const Vec3 local = here.toWorld(there.toLocal(q->origin - centre));
+        return centre + transport(p->direction, q->direction, local);
+      };
+      const std::string number = std::to_string(k);
+      seeDifference(f, direction, j.dDirection[k], 1, "dDirection[" + number + "]", describe);
+      seeDifference(f, origin, j.dOrigin[k], 1 + sizeOf(p->origin), "dOrigin[" + number + "]",
+                    describe);
+    }
+  });
+  return f;
+}
+
+}  // namespace vestige::judge

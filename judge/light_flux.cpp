@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// One flux in three ways: the mean of emit(), power(), and what sample() brings to a sphere that
+// every particle has to cross.
+#include <vestige/sampling.h>
+
+#include "judge/light_tests.h"
+
+namespace vestige::judge {
+namespace {
+
+struct Mean {
+  double sum = 0, squares = 0;
+  int n = 0;
+  void add(double x) { sum += x, squares += x * x, ++n; }
+  double value() const { return sum / n; }
+  double error() const { return std::sqrt(std::max(0.0, squares / n - value() * value()) / n); }
+};
+
+/// Encloses a finite light; lies in the scene that an infinite one shines on.
+struct Sphere {
+  Vec3 centre;
+  Real radius;
+};
+Sphere sphereFor(const Light& light, Random& r) {
+  if (light.isInfinite()) return {kLightScene.centre(), length(kLightScene.size()) / 2};
+  Bounds origins;
+  for (int i = 0; i < 256; ++i)
+    if (const auto p = light.emit({r.pair(), r.pair()})) origins.add(p->origin);
+  if (origins.isEmpty()) return {{}, 0};
+  return {origins.centre(), length(origins.size()) + 1};
+}
+
+std::size_t octant(Vec3 d) { return (d.x > 0 ? 1 : 0) + (d.y > 0 ? 2 : 0) + (d.z > 0 ? 4 : 0); }
+
+/// Where a particle crosses the sphere towards the side that the light does not stand on.
+std::optional<Vec3> crossing(const Particle& p, const Sphere& s, bool isInfinite) {
+  const Vec3 o = p.origin - s.centre;
+  const Real b = dot(o, p.direction), q = sqr(b) - lengthSquared(o) + sqr(s.radius);
+  if (q < 0) return std::nullopt;
+  return o + (-b + (isInfinite ? -1 : 1) * std::sqrt(q)) * p.direction;
+}
+
+using Octants = std::array<Mean, 8>;
+
+Octants emitted(const Light& light, const Sphere& s, int n, Random& r, Mean& all) {
+  Octants parts;
+  for (int i = 0; i < n; ++i) {
+    const auto p = light.emit({r.pair(), r.pair()});
+    const double power = p ? double(luminance(p->power)) : 0;
+    all.add(power);
+    const auto at = p ? crossing(*p, s, light.isInfinite()) : std::nullopt;
+    for (std::size_t k = 0; k < 8; ++k) parts[k].add(at && octant(*at) == k ? power : 0);
+  }
+  return parts;
+}
+
+Octants arriving(const Light& light, const Sphere& s, int n, Random& r, Mean& all) {
+  Octants parts;
+  const double area = 4 * M_PI * double(sqr(s.radius));
+  for (int i = 0; i < n; ++i) {
+    const Vec3 d = uniformCap(r.pair(), -1).d, normal = light.isInfinite() ? d : -d;
+    const auto l = light.sample(s.centre + s.radius * d, r.pair());
+    const double flux = l ? area * double(luminance(l->radiance) *
+                                          std::max(Real(0), dot(l->hit.toLight, normal)) / l->pdf)
+                          : 0;
+    all.add(flux);
+    for (std::size_t k = 0; k < 8; ++k) parts[k].add(octant(d) == k ? flux : 0);
+  }
+  return parts;
+}
+
+}  // namespace
+
+FluxFindings fluxAgrees(const LightCases& cases, const Effort& effort) {
+  FluxFindings f{{"the mean power of emit() is power()", "power()"},
+                 {"emit() brings to a sphere what sample() says", "emit()"},
+                 true};
+  Random r(effort.seed + 4);
+  for (const LightCase& c : cases) {
+    const Sphere s = sphereFor(*c.light, r);
+    if (!(s.radius > 0)) continue;
+    Mean out, in;
+    const Octants a = emitted(*c.light, s, effort.samples, r, out);
+    const Octants b = arriving(*c.light, s, effort.samples, r, in);
+    const double power = double(luminance(c.light->power()));
+    // power() is an estimate; 2 % off changes nothing that a picture shows.
+    const double slack = 0.02 * std::abs(power);
+    f.power.worst.see(std::abs(out.value() - power) / (5 * out.error() + slack), [&] {
+      return lightEvent(c, s.centre, {}, told("power() is", power, out.value()) + " by emit()");
+    });
+    f.powerIsArriving &= std::abs(in.value() - power) <= 5 * in.error() + slack;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const double allowed =
+          5 * std::hypot(a[k].error(), b[k].error()) + 2e-3 * in.value() + 1e-6 * out.value();
+      f.arriving.worst.see(std::abs(a[k].value() - b[k].value()) / allowed, [&] {
+        return lightEvent(
+            c, s.centre, {},
+            told("the flux by emit() through an octant around it is", a[k].value(), b[k].value()) +
+                " by sample(), octant " + std::to_string(k));
+      });
+    }
+  }
+  return f;
+}
+
+}  // namespace vestige::judge

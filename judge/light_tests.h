@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every light has to keep of the contract in light.h. As with BRDFs, sample(), pdf() and
+// sampleDerivatives() are three statements about one map; emit(), power() and the irradiance that
+// sample() gives are three about one flux.
+#pragma once
+#include <vestige/light.h>
+
+#include "judge/differences.h"
+#include "judge/made.h"
+#include "judge/trusted_difference.h"
+#include "judge/verdict.h"
+
+namespace vestige::judge {
+
+/// A light in the scene that kLightScene tells it of.
+struct LightCase {
+  std::string title;  ///< "light spot falloff 40"
+  std::shared_ptr<const Light> light;
+};
+using LightCases = std::vector<LightCase>;
+
+inline const Bounds kLightScene = {{-1, -2, -1}, {2, 1, 1}};
+
+/// Random values for every row but files and blocks, which are left out.
+LightCases lightCases(const Plugin& plugin, int sets, unsigned seed);
+
+Event lightEvent(const LightCase& c, Vec3 from, Vec2 u, const std::string& what);
+
+/// Random events: f(case, from, u, random).
+template <class F>
+void forLightEvents(const LightCases& cases, const Effort& effort, const F& f) {
+  Random r(effort.seed);
+  for (const LightCase& c : cases)
+    for (int i = 0; i < effort.events(); ++i) {
+      const Vec3 from = r.point(-3, 3);
+      f(c, from, r.pair(), r);
+    }
+}
+
+// light_density.cpp
+struct LightDensityFindings {
+  Finding distribution, mass, ownPdf, ownRadiance;
+};
+LightDensityFindings lightSamplesFollowPdf(const LightCases& cases, const Effort& effort);
+
+// light_derivatives.cpp
+Finding lightAreaIsInverseDensity(const LightCases& cases, const Effort& effort);
+Finding lightDuIsTheDerivative(const LightCases& cases, const Effort& effort);
+Finding lightFromIsTheDerivative(const LightCases& cases, const Effort& effort);
+Finding lightLogGradientIsTheDerivative(const LightCases& cases, const Effort& effort);
+Finding emissionIsTheDerivative(const LightCases& cases, const Effort& effort);
+
+// light_flux.cpp
+struct FluxFindings {
+  Finding power;         ///< power() is the mean power of particles
+  Finding arriving;      ///< so is what sample() gives on a sphere, octant by octant
+  bool powerIsArriving;  ///< power() is what sample() gives, whatever emit() says
+};
+FluxFindings fluxAgrees(const LightCases& cases, const Effort& effort);
+
+// light_fuzz.cpp
+Finding lightIsNeverNan(const LightCases& cases, const Effort& effort);
+Finding lightAnswersStayTheSame(const LightCases& cases, const Effort& effort);
+
+}  // namespace vestige::judge

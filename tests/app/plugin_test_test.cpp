@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// `vestige plugin test`: exit codes, sentences, reports.
+#include <fstream>
+#include <iterator>
+
+#include "run.h"
+#include "support/catch.h"
+
+namespace {
+
+const std::string kPlugins = VESTIGE_PLUGINS, kForeign = VESTIGE_FOREIGN;
+
+}  // namespace
+
+TEST_CASE("plugin test: a good library", "[app][plugin]") {
+  for (const char* name : {"/brdf_phong.so", "/light_spot.so", "/camera_pinhole.so"}) {
+    const Run r = vestige({"plugin", "test", kPlugins + name, "--samples", "4096", "--seed", "3"});
+    INFO(r.out << r.err);
+    CHECK(r.exit == 0);
+    CHECK_THAT(r.out, containsText("seed 3"));
+    CHECK_THAT(r.out, containsText("pass  "));
+  }
+  const Run pigment = vestige({"plugin", "test", kPlugins + "/pigment_agate.so"});
+  CHECK(pigment.exit == 0);
+  CHECK_THAT(pigment.out, containsText("only its schema and its creation were checked"));
+}
+
+TEST_CASE("plugin test: a wrong density is named, with a report", "[app][plugin]") {
+  const Folder folder;
+  const Run r = vestige({"plugin", "test", kForeign + "/brdf_half_pdf.so", "--samples", "4096",
+                         "--report", folder / "report"});
+  INFO(r.out << r.err);
+  CHECK(r.exit == 1);
+  CHECK_THAT(r.out, containsText("pdf() is wrong: with {"));
+  CHECK_THAT(r.out, containsText("sample() lands 2 times as often as pdf() says"));
+  CHECK_THAT(r.out, containsText("toPrev <"));
+  // It has no derivatives of its own, so nobody blames it for them.
+  CHECK_THAT(r.out, !containsText("lobePdf is wrong"));
+  CHECK_THAT(r.out, containsText("leaves derivatives to the engine's finite differences"));
+  CHECK(looksLikePicture(folder / "report/density.png"));
+  CHECK(looksLikePicture(folder / "report/derivative.png"));
+  std::ifstream file(folder / "report/report.txt");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CHECK(text == r.out);
+}
+
+TEST_CASE("plugin test: what cannot be loaded", "[app][plugin]") {
+  const Run missing = vestige({"plugin", "test", "nowhere.so"});
+  CHECK(missing.exit == 3);
+  CHECK_THAT(missing.err, containsText("there is no library 'nowhere.so'"));
+  const Folder folder;
+  const Run text = vestige({"plugin", "test", folder.write("text.so", "no library")});
+  CHECK(text.exit == 3);
+  CHECK_THAT(text.err, containsText("was not loaded"));
+}
