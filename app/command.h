@@ -41,6 +41,7 @@ void addInspect(CLI::App& program, Action& chosen);
 void addCheck(CLI::App& program, Action& chosen);
 void addDescribe(CLI::App& program, Action& chosen);
 void addCompare(CLI::App& program, Action& chosen);
+void addPlugin(CLI::App& program, Action& chosen);
 
 /// Versions of the program and of everything it is made of, for people who report an error.
 std::string versionText();
