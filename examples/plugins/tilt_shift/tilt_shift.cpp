@@ -4,7 +4,7 @@
 // end), or in a narrow band only, which makes a town look like a toy.
 //
 // As camera thin_lens, but the points of focus lie on the plane through `focal_point` with normal
-// n = forward turned by `tilt` towards up and by `swing` to the right: the point for direction d is
+// n = forward turned by `tilt` downwards and by `swing` to the right: the point for direction d is
 // eye + k d with k = reach / (n . d), reach = n . (focal_point - eye). That changes with the film:
 // dk = -k (n . dd) / (n . d).
 #include <vestige/sampling.h>
@@ -33,7 +33,8 @@ class TiltShift final : public Camera {
                  .unset()
                  .in("scene units")
                  .doc("the plane of focus goes through it; without it: look_at"),
-             real("tilt", 0).range(-89, 89).in("degrees").doc("of that plane's normal, upwards"),
+             real("tilt", 0).range(-89, 89).in("degrees").doc(
+                 "turns the plane of focus towards the floor"),
              real("swing", 0).range(-89, 89).in("degrees").doc("... and to the right"),
              vec2("shift", {0, 0})
                  .range(-1e6, 1e6)
@@ -46,7 +47,7 @@ class TiltShift final : public Camera {
         film_(PerspectiveFilm::of(values, kAngle)),
         shift_(values.vec2(kShift)),
         lensRadius_(values.real(kAperture) / 2 * view_.across),
-        normal_(normalize(view_.forward + std::tan(radians(values.real(kTilt))) * view_.up +
+        normal_(normalize(view_.forward - std::tan(radians(values.real(kTilt))) * view_.up +
                           std::tan(radians(values.real(kSwing))) * view_.right)) {
     const int row = values.has(kFocalPoint) ? int(kFocalPoint) : int(kLookAt);
     const Vec3 point = values.toWorld().point(values.vec3(row)) - view_.location;
