@@ -24,6 +24,9 @@ Commands ('vestige COMMAND --help' for their options)
   describe [KIND [NAME]]
                     plugins and their parameters, with types, ranges and defaults
   compare A B       how far picture A is from the reference B
+  plugin new KIND NAME
+                    a folder with a plugin of your own, ready to build; plugin list: all that are
+                    found, with their files and versions
 
 Options
   -h, --help        this page
@@ -31,6 +34,7 @@ Options
 
 Environment
   VESTIGE_PLUGIN_PATH, VESTIGE_INCLUDE_PATH   more folders, separated by ':'
+                    (~/.local/lib/vestige is looked through for plugins in any case)
   VESTIGE_CACHE     folder for files that can be made again (~/.cache/vestige)
   OCIO              OpenColorIO configuration in place of the built-in one
   NO_COLOR          no colours on the terminal

@@ -44,8 +44,9 @@ Words withCommand(Words words) {
     throw Failure(
         kCommandLineWrong,
         fmt::format("there is no command and no scene file '{}'; {}", words[0],
-                    near.empty() ? "the commands are render, inspect, check, describe, compare, plugin"
-                                 : fmt::format("did you mean '{}'?", near)));
+                    near.empty()
+                        ? "the commands are render, inspect, check, describe, compare, plugin"
+                        : fmt::format("did you mean '{}'?", near)));
   }
   words.insert(words.begin(), "render");
   return words;
@@ -61,6 +62,13 @@ Words optionNames(const CLI::App& command) {
   return names;
 }
 
+/// The command's name as it is typed: "plugin new".
+std::string fullName(const CLI::App& command) {
+  const CLI::App* above = command.get_parent();
+  const bool isNested = above && above->get_parent();
+  return (isNested ? fullName(*above) + ' ' : "") + command.get_name();
+}
+
 /// A sentence about the first word that is no option of its command, or "".
 std::string unknownOption(const CLI::App& command, const Words& words) {
   const Words known = optionNames(command);
@@ -70,24 +78,45 @@ std::string unknownOption(const CLI::App& command, const Words& words) {
     const std::string name = word.substr(0, word.find('='));
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string near = nearestWord(name, known);
-    return fmt::format("'vestige {}' has no option '{}'; {}", command.get_name(), name,
-                       near.empty() ? fmt::format("see vestige {} --help", command.get_name())
+    return fmt::format("'vestige {}' has no option '{}'; {}", fullName(command), name,
+                       near.empty() ? fmt::format("see vestige {} --help", fullName(command))
                                     : fmt::format("did you mean '{}'?", near));
   }
   return "";
 }
 
+const CLI::App* subcommand(const CLI::App& above, const std::string& name) {
+  for (const CLI::App* c : above.get_subcommands(nullptr))
+    if (c->get_name() == name) return c;
+  return nullptr;
+}
+
+/// A sentence about the word that should be one of a command's own commands, or "".
+std::string unknownCommand(const CLI::App& command, const std::string& word) {
+  Words known;
+  for (const CLI::App* c : command.get_subcommands(nullptr)) known.push_back(c->get_name());
+  if (known.empty() || word.empty() || word[0] == '-') return "";
+  const std::string near = nearestWord(word, known);
+  return fmt::format("'vestige {}' has no command '{}'; {}", fullName(command), word,
+                     near.empty() ? fmt::format("there are {}", fmt::join(known, ", "))
+                                  : fmt::format("did you mean '{}'?", near));
+}
+
 /// What CLI11 refused, in the user's words.
 std::string explain(const CLI::ParseError& error, const CLI::App& program, const Words& words) {
-  const auto named = [&](const CLI::App* c) { return !words.empty() && c->get_name() == words[0]; };
-  const auto commands = program.get_subcommands(nullptr);
-  const auto found = std::find_if(commands.begin(), commands.end(), named);
-  const CLI::App* command = found == commands.end() ? nullptr : *found;
-  if (!command) return fmt::format("{}; see vestige --help", error.what());
-  if (const std::string sentence = unknownOption(*command, words); !sentence.empty())
-    return sentence;
-  return fmt::format("vestige {}: {}; see vestige {} --help", command->get_name(), error.what(),
-                     command->get_name());
+  const CLI::App* command = &program;
+  std::size_t depth = 0;
+  for (; depth < words.size(); ++depth) {
+    const CLI::App* next = subcommand(*command, words[depth]);
+    if (!next) break;
+    command = next;
+  }
+  if (depth == 0) return fmt::format("{}; see vestige --help", error.what());
+  const std::string next = depth < words.size() ? words[depth] : "";
+  if (std::string sentence = unknownCommand(*command, next); !sentence.empty()) return sentence;
+  if (std::string sentence = unknownOption(*command, words); !sentence.empty()) return sentence;
+  return fmt::format("vestige {}: {}; see vestige {} --help", fullName(*command), error.what(),
+                     fullName(*command));
 }
 
 int run(Words words) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// vestige plugin: what authors of plugins need.
+// vestige plugin: for those who write plugins.
+#include "app/plugin.h"
+
 #include <CLI/CLI.hpp>
 
 #include "app/plugin_test.h"
@@ -7,9 +9,11 @@
 namespace vestige::app {
 
 void addPlugin(CLI::App& program, Action& chosen) {
-  CLI::App* plugin = program.add_subcommand("plugin", "For authors of plugins: test one");
-  plugin->require_subcommand(1);
+  CLI::App* plugin = program.add_subcommand("plugin", "Make, list and test plugins");
+  addPluginNew(*plugin, chosen);
+  addPluginList(*plugin, chosen);
   addPluginTest(*plugin, chosen);
+  plugin->require_subcommand(1);
 }
 
 }  // namespace vestige::app

@@ -90,6 +90,18 @@ class RegistrySchemas final : public lang::SchemaSource {
   const Registry& registry_;
 };
 
+/// A folder that is there but may not be listed would look like one without plugins.
+void warnOfFolders(const std::vector<std::string>& folders) {
+  std::error_code fault;
+  for (const std::string& folder : folders) {
+    const bool isThere = fs::exists(folder, fault);
+    if (isThere && !fs::is_directory(folder, fault))
+      warn(fmt::format("no plugin is looked for in '{}': it is no folder", folder));
+    else if (isThere && (fs::directory_iterator(folder, fault), fault))
+      warn(fmt::format("no plugin is looked for in '{}': {}", folder, fault.message()));
+  }
+}
+
 /// Whether a note of some diagnostic says this.
 bool isSaid(const std::string& sentence, const Diagnostics& diagnostics) {
   for (const Diagnostic& d : diagnostics.list())
@@ -141,6 +153,7 @@ Registry loadRegistry(const std::vector<std::string>& extraPaths) {
       throw Failure(kCommandLineWrong,
                     fmt::format("--plugin-path: there is no folder '{}'", folder));
   const std::vector<std::string> folders = pluginFolders(extraPaths);
+  warnOfFolders(folders);
   std::vector<std::string> refused;
   Registry registry = Registry::load(folders, refused);
   for (const std::string& sentence : refused) warn(sentence);

@@ -46,7 +46,7 @@ named_files() {
   grep -oE '\]\([^):]+\)' "$1" | tr -d '()]' || true
 }
 
-for page in CONTRIBUTING.md README.md docs/*.md docs/adr/*.md; do
+for page in CONTRIBUTING.md README.md docs/*.md docs/adr/*.md docs/plugins/*.md; do
   while IFS= read -r file; do
     if [[ ! -e $file && ! -e $(dirname "$page")/$file ]]; then
       printf '%s names %s, which does not exist\n' "$page" "$file"

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "engine/scene/library_file.h"
+
 namespace vestige {
 namespace {
 
@@ -71,6 +73,7 @@ std::optional<PluginName> promisedBy(const std::string& file) {
 
 std::optional<Plugin> openPlugin(const std::string& file, const std::optional<PluginName>& promised,
                                  std::string& why) {
+  if (why = cutShort(file); !why.empty()) return std::nullopt;
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {
     why = dlerror();

@@ -184,16 +184,28 @@ std::vector<const Schema*> Registry::schemas() const {
 
 const std::vector<Refusal>& Registry::refused() const { return catalogue_->refused; }
 
+std::string installationFolder() { return programFolder().parent_path().string(); }
+
 std::string installedPluginFolder() {
   return (programFolder().parent_path() / "lib/vestige/plugins").string();
+}
+
+std::string userPluginFolder() {
+  const char* home = std::getenv("HOME");
+  return home && *home ? (fs::path(home) / ".local/lib/vestige").string() : "";
 }
 
 std::string installedIncludeFolder() {
   return (programFolder().parent_path() / "share/vestige/library").string();
 }
 
+std::string installedTemplateFolder() {
+  return (programFolder().parent_path() / "share/vestige/templates").string();
+}
+
 std::vector<std::string> pluginFolders(const std::vector<std::string>& extra) {
   std::vector<std::string> folders = {installedPluginFolder()};
+  if (const std::string own = userPluginFolder(); !own.empty()) folders.push_back(own);
   if (const char* path = std::getenv("VESTIGE_PLUGIN_PATH")) {
     std::string rest = path;
     for (std::size_t colon; !rest.empty();

@@ -82,10 +82,16 @@ class Registry {
   std::unique_ptr<Catalogue> catalogue_;
 };
 
-/// Where this installation keeps its plugins and its language includes: found beside the program.
+/// The folder that holds bin/, lib/ and share/ of this installation: found beside the program.
+std::string installationFolder();
+/// Where in it are the plugins, the language includes, and the templates of new plugins.
 std::string installedPluginFolder();
 std::string installedIncludeFolder();
-/// The installed folder, then VESTIGE_PLUGIN_PATH, then `extra`.
+std::string installedTemplateFolder();
+/// Where a user keeps plugins of his own, ~/.local/lib/vestige; "" for one without a home.
+std::string userPluginFolder();
+/// The installed folder, that of the user, VESTIGE_PLUGIN_PATH, then `extra`: what comes later
+/// goes before.
 std::vector<std::string> pluginFolders(const std::vector<std::string>& extra);
 
 }  // namespace vestige

@@ -75,6 +75,8 @@ TEST_CASE("a plugin built for another engine is refused with both sides named", 
   CHECK_THAT(reason("tag"), containsText("elsewhere"));
   CHECK_THAT(reason("tag"), containsText(kAbiTag));
   CHECK_THAT(reason("empty"), containsText("empty fields"));
+  CHECK_THAT(reason("nothing"), containsText("exports no symbol 'vestige_plugin'"));
+  CHECK_THAT(reason("real"), containsText(sizeof(Real) == 8 ? "real=float" : "real=double"));
 }
 
 TEST_CASE("a library is loaded when its plugin is asked for", "[registry][lazy]") {

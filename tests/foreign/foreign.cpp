@@ -16,8 +16,12 @@
 #define FOREIGN_TAG ::vestige::kAbiTag
 #endif
 
+#ifdef FOREIGN_NOTHING
+extern "C" __attribute__((visibility("default"))) const int something_else = 1;
+#else
 extern "C" __attribute__((visibility("default"))) const VestigePlugin vestige_plugin;
 extern "C" const VestigePlugin vestige_plugin = {
     FOREIGN_MAGIC, FOREIGN_SIZE, FOREIGN_MAJOR, ::vestige::kSdkMinor,
     FOREIGN_TAG,   "brdf",       "foreign",     "1.0",
     nullptr,       nullptr,      nullptr,       0};
+#endif

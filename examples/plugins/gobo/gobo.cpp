@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// A projector: a point that throws a picture (a slide, a "gobo") into a pyramid along its axis.
+//
+//     radiant intensity = intensity picture(x, y),   (x, y) = where the direction meets the slide
+//
+// The slide stands one unit in front of the point, 2 tan(angle / 2) wide. Particles start evenly
+// over the slide, so with density 1 / (area cos^3 a) per steradian. The picture's own slope is left
+// out of logGradient(): a slide has edges, and a derivative there would say nothing.
+#include <vestige/light.h>
+#include <vestige/plugin.h>
+#include <vestige/words.h>
+
+namespace vestige {
+namespace {
+
+class Gobo final : public Light {
+ public:
+  enum Row { kSlide, kLocation, kPointAt, kSky, kAngle, kIntensity };
+
+  static Schema schema() {
+    return {
+        .kind = "light",
+        .name = "gobo",
+        .summary = "a projector that throws a picture",
+        .params = {file("slide").place().need().doc("the picture: PNG, JPEG, EXR, ..."),
+                   vec3("location", {}).in("scene units").doc("where it stands"),
+                   vec3("point_at", {0, 0, 1}).in("scene units").doc("the middle of the picture"),
+                   vec3("sky", {0, 1, 0}).doc("the direction that is upwards in the picture"),
+                   real("angle", 40).range(1, 170).in("degrees").doc("width of the beam"),
+                   rgb("intensity", 1).range(0, 1e12).in("W/sr").doc("where the slide is white")}};
+  }
+
+  Gobo(const Values& values, Host& host)
+      : location_(values.toWorld().point(values.vec3(kLocation))),
+        intensity_(values.rgb(kIntensity)) {
+    std::string error;
+    slide_ = host.texture({.file = values.text(kSlide),
+                           .span = values.span(kSlide),
+                           .colourSpace = "",
+                           .wrapU = Wrap::clamp,
+                           .wrapV = Wrap::clamp},
+                          error);
+    if (!slide_) throw PluginError(kSlide, error);
+    frame_.n = normalize(values.toWorld().point(values.vec3(kPointAt)) - location_);
+    if (lengthSquared(frame_.n) == 0)
+      throw PluginError(kPointAt, "point_at is the light's own location: expected another point");
+    const Vec3 right = cross(values.toWorld().vector(values.vec3(kSky)), frame_.n);
+    if (!(lengthSquared(right) > 0))
+      throw PluginError(kSky, "sky " + words(values.vec3(kSky)) + " lies along the beam");
+    frame_.s = normalize(right), frame_.t = cross(frame_.n, frame_.s);
+    halfWidth_ = std::tan(radians(values.real(kAngle)) / 2);
+    halfHeight_ = halfWidth_ * Real(slide_->height()) / Real(slide_->width());
+  }
+
+  bool isDelta() const noexcept override { return true; }
+
+  std::optional<LightSample> sample(Vec3 from, Vec2) const noexcept override {
+    const Vec3 way = location_ - from, toLight = normalize(way);
+    const Real d2 = lengthSquared(way);
+    if (!(d2 > 0)) return std::nullopt;
+    const Rgb thrown = intensity(frame_.toLocal(-toLight));
+    if (isBlack(thrown)) return std::nullopt;
+    return LightSample{{from, toLight, std::sqrt(d2), location_, {}, {}}, thrown / d2, 1};
+  }
+
+  Real pdf(const LightHit&) const noexcept override { return 0; }
+  Rgb eval(const LightHit&) const noexcept override { return {}; }
+
+  LightJacobian sampleDerivatives(Vec3 from, Vec2) const noexcept override {
+    const Vec3 way = location_ - from;
+    return {.du = {}, .dFrom = (-1 / length(way)) * projection(normalize(way))};
+  }
+
+  LightLogGradient logGradient(Vec3 from, Vec2) const noexcept override {
+    const Vec3 way = location_ - from;
+    return {{}, 2 / lengthSquared(way) * way};
+  }
+
+  std::optional<Particle> emit(EmissionNumbers u) const noexcept override {
+    const Vec3 d = onSlide(u.direction), direction = normalize(d);
+    const Real cosine = direction.z, area = 4 * halfWidth_ * halfHeight_;
+    return Particle{.origin = location_,
+                    .direction = frame_.toWorld(direction),
+                    .normal = {},
+                    .power = area * cosine * cosine * cosine * intensity(direction),
+                    .variables = 2};
+  }
+
+  RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept override {
+    const Vec3 d = onSlide(u.direction);
+    const Mat3 across = (1 / length(d)) * projection(normalize(d));
+    return {.dOrigin = {},
+            .dDirection = {Vec3{}, Vec3{}, frame_.toWorld(across * Vec3{2 * halfWidth_, 0, 0}),
+                           frame_.toWorld(across * Vec3{0, 2 * halfHeight_, 0})}};
+  }
+
+  LightExtent extent() const noexcept override {
+    const Real corner = std::atan(std::hypot(halfWidth_, halfHeight_));
+    return {{location_, location_}, frame_.n, 0, corner};
+  }
+
+  /// As if the picture were even: solid angle of the slide times its mean.
+  Rgb power() const noexcept override {
+    const Real w = halfWidth_, h = halfHeight_;
+    const Real angle = 4 * std::asin(w * h / std::sqrt((1 + w * w) * (1 + h * h)));
+    return angle * intensity_ * slide_->mean().colour;
+  }
+
+ private:
+  /// A point of the slide by numbers in the unit square; v upwards, as in a texture.
+  Vec3 onSlide(Vec2 u) const noexcept {
+    return {halfWidth_ * (2 * u.x - 1), halfHeight_ * (2 * u.y - 1), 1};
+  }
+  /// W/sr in a direction of the lamp's own frame; black beside the slide and behind the lamp.
+  Rgb intensity(Vec3 d) const noexcept {
+    if (!(d.z > 0)) return {};
+    const Vec2 uv = {(d.x / d.z / halfWidth_ + 1) / 2, (d.y / d.z / halfHeight_ + 1) / 2};
+    if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};
+    const Vec2 point[2] = {};
+    const Rgba c = slide_->lookup(uv, point);
+    return intensity_ * c.alpha * c.colour;
+  }
+
+  Vec3 location_;
+  Rgb intensity_;
+  std::shared_ptr<const Texture> slide_;
+  Frame frame_;                  ///< s to the right of the picture, t up, n along the beam; world
+  Real halfWidth_, halfHeight_;  ///< of the slide, at distance 1
+};
+
+}  // namespace
+}  // namespace vestige
+
+VESTIGE_PLUGIN(vestige::Light, vestige::Gobo)

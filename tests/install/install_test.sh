@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What a plugin's author meets: an installation that was moved, a new plugin, the examples. Builds
+# against the installation only. Usage: install_test.sh BUILD SOURCE
+set -euo pipefail
+build=$(readlink -f "$1") source=$(readlink -f "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export HOME=$work/home CCACHE_DIR=$work/ccache
+unset VESTIGE_PLUGIN_PATH CMAKE_PREFIX_PATH
+mkdir "$work/home"
+warnings="-Wall -Wextra -Wpedantic -Werror"
+
+fail() { printf 'install_test: %s\n' "$*" >&2; exit 1; }
+quietly() {
+  "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "failed: $*"; }
+}
+# Must fail, saying $1.
+refuses() {
+  local words=$1
+  shift
+  if "$@" >"$work/log" 2>&1; then fail "should have been refused: $*"; fi
+  tr '\n' ' ' <"$work/log" | tr -s ' ' | grep -qF -- "$words" ||
+    { cat "$work/log" >&2; fail "did not say '$words': $*"; }
+}
+# build_plugin FOLDER: found by the PATH alone, then built in FOLDER/build.
+build_plugin() {
+  quietly cmake -S "$1" -B "$1/build" -DCMAKE_CXX_FLAGS="$warnings"
+  quietly cmake --build "$1/build"
+}
+# render FOLDER NAME: one sample, and a picture that was written.
+render() {
+  quietly vestige check "$1/$2.scene" --werror --plugin-path "$1/build"
+  quietly vestige render "$1/$2.scene" --spp 1 --width 48 --plugin-path "$1/build" -o "$work/$2.png"
+  [[ -s $work/$2.png ]] || fail "no picture of $2"
+}
+
+quietly cmake --install "$build" --prefix "$work/first"
+mv "$work/first" "$work/second"  # nothing in it may know where it was
+prefix=$work/second
+PATH=$prefix/bin:$PATH
+if grep -rlF -e "$build" -e "$source" -e "$work/first" "$prefix/lib/cmake" "$prefix/lib/pkgconfig" \
+  "$prefix/include"; then
+  fail "these files name a folder of the machine that built them"
+fi
+
+# It finds its own plugins, and no others.
+vestige plugin list >"$work/list"
+grep -qxF "$prefix/lib/vestige/plugins" "$work/list" || fail "plugins are not those of the installation"
+[[ $(grep -c '\.so$' "$work/list") == $(find "$prefix/lib/vestige/plugins" -name '*.so' | wc -l) ]] ||
+  fail "not every installed plugin is listed"
+quietly vestige render "$prefix/share/vestige/examples/hello.scene" --spp 1 --width 32 -o "$work/hello.png"
+
+# A new plugin of each kind; that of two kinds of brdf.
+cd "$work"
+for kind in brdf light camera pigment shape integrator; do
+  quietly vestige plugin new "$kind" "my_$kind"
+  build_plugin "my_$kind"
+  [[ -f my_$kind/build/${kind}_my_$kind.so ]] || fail "no library of my_$kind"
+  render "my_$kind" "my_$kind"
+done
+quietly vestige plugin new brdf soft_fur --dual --into "$work/home"
+build_plugin home/soft_fur
+render home/soft_fur soft_fur
+
+# One symbol is exported, whatever is in the library.
+exported=$(nm -D --defined-only home/soft_fur/build/brdf_soft_fur.so | awk '$2 ~ /[DRTB]/ { print $3 }')
+[[ $exported == vestige_plugin ]] || fail "exported: $exported"
+
+# Its own tests, where this program has them.
+if vestige plugin --help | grep -q '^ *test '; then
+  quietly ctest --test-dir home/soft_fur/build --output-on-failure
+  quietly ctest --test-dir my_light/build --output-on-failure
+else
+  quietly ctest --test-dir home/soft_fur/build --output-on-failure -R scene
+fi
+
+# Installed for the user, it needs no option any more.
+refuses "no brdf is called 'soft_fur'" vestige check home/soft_fur/soft_fur.scene
+quietly cmake --install home/soft_fur/build --prefix "$HOME/.local"
+quietly vestige check home/soft_fur/soft_fur.scene
+
+# By pkg-config, without CMake.
+export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+mkdir by_hand
+# shellcheck disable=SC2046  # several words are meant
+quietly c++ -O1 -shared $(pkg-config --cflags vestige) my_pigment/my_pigment.cpp \
+  -o by_hand/pigment_my_pigment.so
+quietly vestige check my_pigment/my_pigment.scene --plugin-path by_hand
+
+# The package refuses what it does not have.
+printf 'cmake_minimum_required(VERSION 3.22)\nproject(p CXX)\nfind_package(Vestige %s REQUIRED)\n%s\n' \
+  2 "" >by_hand/CMakeLists.txt
+refuses 'compatible with requested version "2"' cmake -S by_hand -B by_hand/b2
+printf 'cmake_minimum_required(VERSION 3.22)\nproject(p CXX)\nfind_package(Vestige 1 REQUIRED)\n%s\n' \
+  'vestige_add_plugin(bsdf p SOURCES p.cpp)' >by_hand/CMakeLists.txt
+refuses "there is no kind 'bsdf'" cmake -S by_hand -B by_hand/b3
+
+# The examples, from the installation's own copy.
+for example in "$prefix"/share/vestige/examples/plugins/*/; do
+  name=$(basename "$example")
+  cp -r "$example" "$work/$name"
+  build_plugin "$work/$name"
+  render "$work/$name" "$name"
+done
