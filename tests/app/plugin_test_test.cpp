@@ -8,7 +8,7 @@
 
 namespace {
 
-const std::string kPlugins = VESTIGE_PLUGINS, kForeign = VESTIGE_FOREIGN;
+const std::string kPlugins = VESTIGE_PLUGINS, kForeign = VESTIGE_HALF_PDF;
 
 }  // namespace
 
