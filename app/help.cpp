@@ -27,6 +27,9 @@ Commands ('vestige COMMAND --help' for their options)
   plugin new KIND NAME
                     a folder with a plugin of your own, ready to build; plugin list: all that are
                     found, with their files and versions
+  plugin test FILE.so
+                    whether its densities, derivatives and energy are right, and which of its
+                    methods is wrong
 
 Options
   -h, --help        this page
