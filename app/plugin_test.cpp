@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr int kPluginWrong = 1;  ///< exit code: a test failed
 
 struct TestRequest {
-  std::string library, report;
+  std::string file, report;
   judge::Effort effort;
 };
 
@@ -72,7 +72,7 @@ void writeReport(const std::string& folder, const Plugin& plugin, const std::str
 }
 
 int runTest(const TestRequest& request) {
-  const Plugin plugin = opened(request.library);
+  const Plugin plugin = opened(request.file);
   const judge::Judgement judgement = judge::judgePlugin(plugin, request.effort);
   const std::string text = reportText(plugin, request, judgement);
   std::cout << text << std::flush;
@@ -86,7 +86,7 @@ void addPluginTest(CLI::App& plugin, Action& chosen) {
   CLI::App* command = plugin.add_subcommand(
       "test", "Test whether a library keeps its contract, and which method does not");
   const auto r = std::make_shared<TestRequest>();
-  command->add_option("library", r->library, "the plugin, a .so file")
+  command->add_option("library", r->file, "the plugin, a .so file")
       ->required()
       ->type_name("FILE");
   addInteger(

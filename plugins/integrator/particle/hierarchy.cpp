@@ -177,10 +177,9 @@ void Hierarchy::deposit(const Place& p, Real footprintArea, const Flux& flux) {
                                                           : footprintArea;
   Vec2 at = local(p);
   Cell cell = cellOf(p.patch);
-  if (Real(elements_[e].area) <= area && !elements_[e].varies) {
-    if (settings_.oracle == Oracle::footprint)
-      for (ElementId up; (up = elements_[e].parent) && Real(elements_[up].area) <= area;) e = up;
-  }
+  const bool climbs = settings_.oracle == Oracle::footprint && !elements_[e].varies;
+  if (climbs && Real(elements_[e].area) <= area)
+    for (ElementId up; (up = elements_[e].parent) && Real(elements_[up].area) <= area;) e = up;
   while (elements_[e].level >= 0 && (Real(elements_[e].area) > area || elements_[e].varies)) {
     ElementId children = elements_[e].children.load(std::memory_order_acquire);
     if (children == 0 || children == kBusy) {

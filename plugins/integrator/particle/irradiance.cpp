@@ -2,6 +2,7 @@
 #include "irradiance.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace vestige::particle {
 namespace {

@@ -5,7 +5,6 @@
 //
 // E(x) = sum over the elements a that hold x, from the largest cluster down, of flux_a / area_a.
 #pragma once
-#include <unordered_map>
 #include <vector>
 
 #include "hierarchy.h"
