@@ -86,9 +86,7 @@ void addPluginTest(CLI::App& plugin, Action& chosen) {
   CLI::App* command = plugin.add_subcommand(
       "test", "Test whether a library keeps its contract, and which method does not");
   const auto r = std::make_shared<TestRequest>();
-  command->add_option("library", r->file, "the plugin, a .so file")
-      ->required()
-      ->type_name("FILE");
+  command->add_option("library", r->file, "the plugin, a .so file")->required()->type_name("FILE");
   addInteger(
       *command, "--samples", 64, 1 << 26, [r](auto n) { r->effort.samples = int(n); },
       "of every statistical test, per set of parameters (32768)");
