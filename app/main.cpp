@@ -12,6 +12,7 @@
 #include <vestige/diagnostic.h>
 
 #include "app/command.h"
+#include "app/crash.h"
 #include "app/terminal.h"
 
 namespace vestige::app {
@@ -158,6 +159,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file too large for its limit is an error of write(), as ENOSPC
   std::signal(SIGPIPE, SIG_DFL);
+  tellOfCrashes();
   try {
     return run({argv + 1, argv + argc});
   } catch (const Failure& failure) {

@@ -38,7 +38,10 @@ void printTable(const std::vector<Plugin>& plugins, const std::vector<std::strin
     if (rows.empty()) continue;
     std::cout << folder << '\n' << table(rows, terminalWidth(STDOUT_FILENO)) << '\n';
   }
-  std::cout << count(static_cast<long long>(plugins.size()), "plugin") << '\n';
+  // One tag for all: with another none would have been taken.
+  std::cout << fmt::format("{}, for SDK {}.{} built as {}\n",
+                           count(static_cast<long long>(plugins.size()), "plugin"), kSdkMajor,
+                           kSdkMinor, kAbiTag);
 }
 
 void printJson(const std::vector<Plugin>& plugins, const std::vector<std::string>& refused) {
@@ -48,6 +51,7 @@ void printJson(const std::vector<Plugin>& plugins, const std::vector<std::string
                               {"name", p.name},
                               {"version", p.version},
                               {"sdk", sdkText(p)},
+                              {"abi", p.entry->abiTag},
                               {"file", p.file}});
   std::cout << all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }

@@ -14,7 +14,9 @@
 #include <vestige/diagnostic.h>
 
 #include "app/plugin.h"
+#include "app/scene_input.h"
 #include "app/template_text.h"
+#include "app/terminal.h"
 #include "engine/scene/registry.h"
 #include "lang/vocabulary.h"
 
@@ -121,9 +123,19 @@ void makeFolder(const NewRequest& r, const fs::path& folder) {
                   fmt::format("cannot make the folder '{}': {}", folder.string(), fault.message()));
 }
 
+/// Two of one kind and name: scenes would get the one that is found first.
+void warnOfNamesake(const NewRequest& r) {
+  if (loadRegistry({}).has(r.kind, r.name))
+    warn(
+        fmt::format("there is a {} '{}' already: scenes take the one that is found first, which "
+                    "`vestige plugin list` shows",
+                    r.kind, r.name));
+}
+
 int runNew(const NewRequest& r) {
   checkKind(r);
   checkName(r.name);
+  warnOfNamesake(r);
   const std::string className = classNameOf(r.name);
   const std::map<std::string, std::string> words = {
       {"kind", r.kind}, {"name", r.name}, {"Class", className}};

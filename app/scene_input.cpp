@@ -94,10 +94,11 @@ class RegistrySchemas final : public lang::SchemaSource {
 void warnOfFolders(const std::vector<std::string>& folders) {
   std::error_code fault;
   for (const std::string& folder : folders) {
-    const bool isThere = fs::exists(folder, fault);
-    if (isThere && !fs::is_directory(folder, fault))
+    const fs::file_type type = fs::status(folder, fault).type();
+    if (type == fs::file_type::not_found) continue;
+    if (type != fs::file_type::none && type != fs::file_type::directory)
       warn(fmt::format("no plugin is looked for in '{}': it is no folder", folder));
-    else if (isThere && (fs::directory_iterator(folder, fault), fault))
+    else if (fault || (fs::directory_iterator(folder, fault), fault))
       warn(fmt::format("no plugin is looked for in '{}': {}", folder, fault.message()));
   }
 }

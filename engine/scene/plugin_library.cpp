@@ -37,8 +37,9 @@ std::string refusal(const VestigePlugin& e) {
   if (e.sdkMajor != kSdkMajor || e.sdkMinor > kSdkMinor)
     return fmt::format("it was built for SDK {}.{}, this engine has {}.{}", e.sdkMajor, e.sdkMinor,
                        kSdkMajor, kSdkMinor);
-  if (std::string(e.abiTag) != kAbiTag)
-    return fmt::format("it was built as '{}', this engine as '{}'", e.abiTag, kAbiTag);
+  if (!e.abiTag || std::string_view(e.abiTag) != kAbiTag)
+    return fmt::format("it was built as '{}', this engine as '{}'", e.abiTag ? e.abiTag : "",
+                       kAbiTag);
   if (!e.schema || !e.create || !e.destroy || !e.kind || !e.name)
     return "its entry has empty fields";
   return "";

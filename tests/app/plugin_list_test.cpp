@@ -36,9 +36,12 @@ TEST_CASE("every plugin is listed with versions and library", "[app][plugin]") {
   CHECK(r.exit == 0);
   CHECK(r.err == "");
   CHECK_THAT(r.out, containsText("brdf_lambert.so") && containsText("SDK ") &&
-                        containsText(VESTIGE_PLUGINS "\n") && containsText(" plugins\n"));
+                        containsText(VESTIGE_PLUGINS "\n") && containsText(" plugins, for SDK ") &&
+                        containsText(" built as lib"));
   const nlohmann::json all = nlohmann::json::parse(vestige({"plugin", "list", "--json"}).out);
   CHECK(all["plugins"].size() > 40);
+  for (const auto& p : all["plugins"])
+    CHECK_THAT(p["abi"].get<std::string>(), containsText(" real=") && containsText(" sdk="));
   CHECK(all["refused"].empty());
 }
 
@@ -81,6 +84,10 @@ TEST_CASE("a folder that cannot be listed is told", "[app][plugin]") {
   const Run plain = vestige({"plugin", "list"}, {.variables = {{"VESTIGE_PLUGIN_PATH", file}}});
   CHECK(plain.exit == 0);
   CHECK_THAT(plain.err, containsText(file + "': it is no folder"));
+  fs::create_directory_symlink("ring", folder.path() / "ring");
+  CHECK_THAT(
+      vestige({"plugin", "list"}, {.variables = {{"VESTIGE_PLUGIN_PATH", folder / "ring"}}}).err,
+      containsText("no plugin is looked for in '" + folder / "ring"));
   if (geteuid() == 0) return;  // to whom no folder is closed
   fs::create_directory(folder.path() / "closed");
   fs::permissions(folder.path() / "closed", fs::perms::none);

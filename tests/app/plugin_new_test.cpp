@@ -54,6 +54,12 @@ TEST_CASE("--dual and --into are heard", "[app][plugin]") {
              containsText("no folder 'yours'"));
 }
 
+TEST_CASE("a namesake is told", "[app][plugin]") {
+  const Folder folder;
+  CHECK_THAT(make(folder, {"brdf", "phong"}).err, containsText("there is a brdf 'phong' already"));
+  CHECK(make(folder, {"light", "lambert"}).err.empty());
+}
+
 TEST_CASE("what cannot be a plugin is refused in one sentence, and nothing is written",
           "[app][plugin]") {
   const Folder folder;

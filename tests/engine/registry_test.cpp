@@ -76,6 +76,9 @@ TEST_CASE("a plugin built for another engine is refused with both sides named", 
   CHECK_THAT(reason("tag"), containsText(kAbiTag));
   CHECK_THAT(reason("empty"), containsText("empty fields"));
   CHECK_THAT(reason("nothing"), containsText("exports no symbol 'vestige_plugin'"));
+  CHECK_THAT(reason("older"),
+             containsText("built for SDK " + std::to_string(kSdkMajor - 1) + ".") &&
+                 containsText("this engine has " + std::to_string(kSdkMajor) + "."));
   CHECK_THAT(reason("real"), containsText(sizeof(Real) == 8 ? "real=float" : "real=double"));
 }
 

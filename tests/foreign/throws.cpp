@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plugin whose constructor throws: what is asked for by the parameter `how`.
+// A plugin whose constructor throws or crashes: as the parameter `how` asks.
 #include <vestige/brdf.h>
 #include <vestige/plugin.h>
 
@@ -12,11 +12,13 @@ class Throws final : public Brdf {
     return {.kind = "brdf",
             .name = "throws",
             .summary = "cannot be made",
-            .params = {integer("how", 0).doc("0: a number, 1: an exception, 2: a PluginError")}};
+            .params = {integer("how", 0).doc("0: a number, 1: an exception, 2: a "
+                                             "PluginError, 3: it reads from nowhere")}};
   }
   explicit Throws(const Values& values) {
     if (values.integer(0) == 1) throw std::runtime_error("no such fibre");
     if (values.integer(0) == 2) throw PluginError(0, "how is 2: expected less");
+    if (values.integer(0) == 3) nowhere_ = *nowhere();
     throw 42;
   }
 
@@ -25,6 +27,14 @@ class Throws final : public Brdf {
     return std::nullopt;
   }
   Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 0; }
+
+ private:
+  /// An address that nothing is at; the compiler does not know.
+  static const int* nowhere() noexcept {
+    static const int* volatile address = nullptr;
+    return address;
+  }
+  int nowhere_ = 0;
 };
 
 }  // namespace

@@ -88,6 +88,15 @@ quietly c++ -O1 -shared $(pkg-config --cflags vestige) my_pigment/my_pigment.cpp
   -o by_hand/pigment_my_pigment.so
 quietly vestige check my_pigment/my_pigment.scene --plugin-path by_hand
 
+# The other compiler understands the headers too.
+if command -v clang++ >/dev/null; then
+  for header in "$prefix"/include/vestige/*.h "$prefix"/include/vestige/*/*.h; do
+    [[ -f $header ]] || continue
+    # shellcheck disable=SC2046
+    quietly clang++ $(pkg-config --cflags vestige) -x c++ -include "$header" -fsyntax-only /dev/null
+  done
+fi
+
 # The package refuses what it does not have.
 printf 'cmake_minimum_required(VERSION 3.22)\nproject(p CXX)\nfind_package(Vestige %s REQUIRED)\n%s\n' \
   2 "" >by_hand/CMakeLists.txt

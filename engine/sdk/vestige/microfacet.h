@@ -100,7 +100,7 @@ class Ggx {
     const Real top = 1 + d.v.z;
     d.m = std::sqrt(std::max(top * (2 - top * d.q), Real(1e-12)));  // 0: the cap's far point
     // c + v, exact at the rim
-    const Vec3 y = stretch({d.m * d.k.d.x + d.v.x, d.m * d.k.d.y + d.v.y, top * (1 - d.q)});
+    const Vec3 y = stretch(Vec3{d.m * d.k.d.x + d.v.x, d.m * d.k.d.y + d.v.y, top * (1 - d.q)});
     d.size = std::max(length(y), Real(1e-20));
     d.h = (1 / d.size) * y;
     return d;
