@@ -43,6 +43,9 @@ void addDescribe(CLI::App& program, Action& chosen);
 void addCompare(CLI::App& program, Action& chosen);
 void addPlugin(CLI::App& program, Action& chosen);
 
+/// The program with the window in place of this one; `words` is what follows `view`.
+int runView(const std::vector<std::string>& words);
+
 /// Versions of the program and of everything it is made of, for people who report an error.
 std::string versionText();
 /// The text of `vestige --help`.

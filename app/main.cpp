@@ -20,7 +20,8 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const Words kCommands = {"render", "inspect", "check", "describe", "compare", "plugin", "help"};
+const Words kCommands = {"render",  "inspect", "check",  "describe",
+                         "compare", "view",    "plugin", "help"};
 
 bool isCommand(const std::string& word) {
   return std::find(kCommands.begin(), kCommands.end(), word) != kCommands.end();
@@ -46,7 +47,7 @@ Words withCommand(Words words) {
         kCommandLineWrong,
         fmt::format("there is no command and no scene file '{}'; {}", words[0],
                     near.empty()
-                        ? "the commands are render, inspect, check, describe, compare, plugin"
+                        ? "the commands are render, view, inspect, check, describe, compare, plugin"
                         : fmt::format("did you mean '{}'?", near)));
   }
   words.insert(words.begin(), "render");
@@ -135,6 +136,7 @@ int run(Words words) {
   program.formatter_fn([](const CLI::App*, std::string, CLI::AppFormatMode) { return helpText(); });
 
   words = withCommand(std::move(words));
+  if (!words.empty() && words[0] == "view") return runView({words.begin() + 1, words.end()});
   try {
     program.parse(Words(words.rbegin(), words.rend()));  // the library wants them last first
   } catch (const CLI::Success& help) {

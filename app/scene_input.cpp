@@ -49,25 +49,6 @@ std::vector<std::string> includeFolders(const std::vector<std::string>& given) {
   return folders;
 }
 
-/// Failure if the file is not there, with the nearest name beside it.
-void checkSceneFile(const std::string& file) {
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored))
-    throw Failure(kCommandLineWrong, fmt::format("'{}' is a folder, not a scene file", file));
-  if (!fs::exists(file, ignored)) {
-    const fs::path folder = fs::path(file).parent_path();
-    std::vector<std::string> beside;
-    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored))
-      beside.push_back((folder / entry.path().filename()).string());
-    const std::string near = nearestWord(file, beside);
-    throw Failure(kCommandLineWrong,
-                  fmt::format("there is no scene file '{}'{}", file,
-                              near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
-  }
-  if (access(file.c_str(), R_OK) != 0)
-    throw Failure(kCommandLineWrong, fmt::format("'{}' may not be read by this user", file));
-}
-
 /// The registry as the language asks it.
 class RegistrySchemas final : public lang::SchemaSource {
  public:
@@ -112,6 +93,24 @@ bool isSaid(const std::string& sentence, const Diagnostics& diagnostics) {
 }
 
 }  // namespace
+
+void checkSceneFile(const std::string& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored))
+    throw Failure(kCommandLineWrong, fmt::format("'{}' is a folder, not a scene file", file));
+  if (!fs::exists(file, ignored)) {
+    const fs::path folder = fs::path(file).parent_path();
+    std::vector<std::string> beside;
+    for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored))
+      beside.push_back((folder / entry.path().filename()).string());
+    const std::string near = nearestWord(file, beside);
+    throw Failure(kCommandLineWrong,
+                  fmt::format("there is no scene file '{}'{}", file,
+                              near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  }
+  if (access(file.c_str(), R_OK) != 0)
+    throw Failure(kCommandLineWrong, fmt::format("'{}' may not be read by this user", file));
+}
 
 void addPluginPath(CLI::App& command, std::vector<std::string>& paths) {
   addList(command, "--plugin-path", paths, "look for plugin libraries in this folder too")

@@ -51,6 +51,9 @@ void addBuildOptions(CLI::App& command, BuildOptions& build, const std::string& 
 /// Failure if one of them names nothing known.
 void checkBuildOptions(const BuildOptions& build, const Registry& registry);
 
+/// Failure if the file is not there, or is none that can be read.
+void checkSceneFile(const std::string& file);
+
 /// Diagnostics to stderr, and "2 errors, 1 warning" after them if there were any.
 void printDiagnostics(const lang::Result& text);
 /// Whether nothing speaks against rendering: no error, and no warning where those count as errors.

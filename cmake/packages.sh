@@ -4,7 +4,7 @@
 # ./run and ./test install and build. Sourced by both, with the checkout's folder in `home`.
 
 packages=(
-  g++ cmake ninja-build pkg-config            # tools
+  g++ cmake ninja-build make pkg-config       # tools; make: for plugins, by "cmake -B build"
   libembree-dev                               # rays meet triangles
   libopenimageio-dev libopencolorio-dev       # pictures and colours
   libassimp-dev                               # meshes

@@ -64,10 +64,12 @@ std::string renderingSpaceIn(const OCIO::ConstConfigRcPtr& config) {
 class Steps final : public ColourTransform {
  public:
   void add(const OCIO::ConstProcessorRcPtr& processor) {
-    if (!processor->isNoOp()) steps_.push_back(processor->getDefaultCPUProcessor());
+    if (processor->isNoOp()) return;
+    processors_.push_back(processor);
+    steps_.push_back(processor->getDefaultCPUProcessor());
   }
   void append(const Steps& more) {
-    steps_.insert(steps_.end(), more.steps_.begin(), more.steps_.end());
+    for (const auto& processor : more.processors_) add(processor);
   }
   void scaleFirst(double factor) { scale_ = float(factor); }
 
@@ -83,8 +85,27 @@ class Steps final : public ColourTransform {
     for (const auto& step : steps_) step->apply(view);
   }
 
+  /// GLSL of all steps but the exposure, one after the other; "" if one needs tables.
+  std::string shader(const std::string& function) const {
+    std::string text, calls;
+    int count = 0;
+    for (const auto& processor : processors_) {
+      OCIO::GpuShaderDescRcPtr part = OCIO::GpuShaderDesc::CreateShaderDesc();
+      const std::string name = fmt::format("step{}", count++);
+      part->setLanguage(OCIO::GPU_LANGUAGE_GLSL_1_3);
+      part->setFunctionName(name.c_str());
+      part->setResourcePrefix((name + "_").c_str());
+      processor->getDefaultGPUProcessor()->extractGpuShaderInfo(part);
+      if (part->getNumTextures() > 0 || part->getNum3DTextures() > 0) return "";
+      text += part->getShaderText();
+      calls += fmt::format("  c = {}(c);\n", name);
+    }
+    return text + fmt::format("vec4 {}(vec4 c) {{\n{}  return c;\n}}\n", function, calls);
+  }
+
  private:
   float scale_ = 1;
+  std::vector<OCIO::ConstProcessorRcPtr> processors_;
   std::vector<OCIO::ConstCPUProcessorRcPtr> steps_;
 };
 
@@ -167,7 +188,9 @@ std::shared_ptr<const ColourTransform> fromColourSpace(const std::string& space,
   }
 }
 
-std::shared_ptr<const ColourTransform> forDisplay(const Display& display, std::string& error) {
+namespace {
+
+std::shared_ptr<const Steps> displaySteps(const Display& display, std::string& error) {
   const auto config = currentConfig(error);
   Display wanted = display;
   if (!config || !chooseView(config, wanted, error)) return nullptr;
@@ -185,6 +208,49 @@ std::shared_ptr<const ColourTransform> forDisplay(const Display& display, std::s
     error = fmt::format("the view '{}' cannot be made: {}", wanted.view, firstLine(e.what()));
     return nullptr;
   }
+}
+
+}  // namespace
+
+std::shared_ptr<const ColourTransform> forDisplay(const Display& display, std::string& error) {
+  return displaySteps(display, error);
+}
+
+bool applyDisplay(const Display& display, float* pixels, std::size_t count, int stride,
+                  std::string& error) {
+  const auto steps = displaySteps(display, error);
+  if (steps) steps->apply(pixels, count, stride);
+  return steps != nullptr;
+}
+
+std::string displayShader(const Display& display, std::string& error) {
+  const auto steps = displaySteps(display, error);
+  if (!steps) return "";
+  std::string text;
+  try {
+    text = steps->shader("displayed");
+    if (text.empty()) error = fmt::format("the view '{}' needs tables", display.view);
+  } catch (const OCIO::Exception& e) {
+    error = fmt::format("the view '{}' has no shader: {}", display.view, firstLine(e.what()));
+  }
+  return text;
+}
+
+std::vector<DisplayViews> displayViews(std::string& error) {
+  std::vector<DisplayViews> all;
+  const auto config = currentConfig(error);
+  if (!config) return all;
+  const std::string first = config->getDefaultDisplay();
+  for (int d = 0; d < config->getNumDisplays(); ++d) {
+    DisplayViews display{config->getDisplay(d), {}};
+    const std::string usual = config->getDefaultView(display.display.c_str());
+    for (int v = 0; v < config->getNumViews(display.display.c_str()); ++v) {
+      const std::string view = config->getView(display.display.c_str(), v);
+      display.views.insert(view == usual ? display.views.begin() : display.views.end(), view);
+    }
+    all.insert(display.display == first ? all.begin() : all.end(), display);
+  }
+  return all;
 }
 
 std::string colourLibraryVersion() { return OCIO::GetVersion(); }

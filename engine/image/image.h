@@ -33,6 +33,21 @@ struct Display {
   std::string view = "";     ///< "" the config's default ("Standard"), "ACES 1.0 SDR", "Raw"
   std::string display = "";  ///< "" the config's default
 };
+/// Displays of the colour config in use and their views, the defaults first; empty with `error` if
+/// it cannot be read.
+struct DisplayViews {
+  std::string display;
+  std::vector<std::string> views;
+};
+std::vector<DisplayViews> displayViews(std::string& error);
+/// From radiance to code values of the display, in place: `count` pixels of which the first three
+/// of `stride` numbers are R, G, B. Not clamped. False with `error` for an unknown view.
+bool applyDisplay(const Display& display, float* pixels, std::size_t count, int stride,
+                  std::string& error);
+/// The same but the exposure as GLSL 1.30: a function `vec4 displayed(vec4 radiance)`. "" with
+/// `error` where the view is unknown or needs tables, which only applyDisplay() has.
+std::string displayShader(const Display& display, std::string& error);
+
 struct WriteOptions {
   Display display;         ///< for PNG, JPEG and other integer formats
   bool halfFloat = false;  ///< for EXR

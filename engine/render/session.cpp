@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kTile = 16;  ///< pixels; small enough that a cancel is answered at once
 constexpr int kDefaultSamples = 16;
-constexpr int kMaxPass = 16;  ///< samples a pixel in one pass: how coarse progress may be
 constexpr auto kTick = std::chrono::milliseconds(100);
 constexpr double kLeastTick = 0.05;  ///< seconds between two tellings of progress
 
@@ -123,7 +122,10 @@ std::vector<int> openTiles(const Job& job) {
 
 void renderTile(const Job& job, int tile, std::uint32_t first, int count, Counters& counters) {
   forPixels(job, tile, [&](int x, int y) {
-    for (int s = 0; s < count; ++s) samplePixel(job, x, y, first + std::uint32_t(s), counters);
+    // A pass that was cut short left some pixels ahead of the others.
+    for (std::uint32_t s = std::max(first, job.film.samples(x, y));
+         s < first + std::uint32_t(count); ++s)
+      samplePixel(job, x, y, s, counters);
   });
 }
 
@@ -137,8 +139,9 @@ void add(Counters& sum, const Counters& c) {
 /// so before the end; tiles under way are finished.
 class Pass {
  public:
-  Pass(const Job& job, const std::vector<int>& tiles, std::uint32_t first, int count)
-      : job_(job), tiles_(tiles), first_(first), count_(count) {}
+  Pass(const Job& job, const std::vector<int>& tiles, std::uint32_t first, int count,
+       const std::atomic<bool>* cancel)
+      : job_(job), tiles_(tiles), first_(first), count_(count), cancel_(cancel) {}
 
   /// `tick(share)` is called now and then; it returns true to stop.
   template <class Tick>
@@ -167,17 +170,21 @@ class Pass {
       std::unique_lock lock(mutex_);
       ready_.wait(lock, [this] { return started_; });
     }
-    for (std::size_t i; !stop_ && (i = std::size_t(next_++)) < tiles_.size(); ++done_)
+    for (std::size_t i; !isStopped() && (i = std::size_t(next_++)) < tiles_.size(); ++done_)
       renderTile(job_, tiles_[i], first_, count_, counters);
     const std::lock_guard lock(mutex_);
     add(counters_, counters);
     if (--running_ == 0) finished_.notify_all();
   }
 
+  /// Asked before each tile: a window waits for the answer.
+  bool isStopped() const noexcept { return stop_ || (cancel_ && cancel_->load()); }
+
   const Job& job_;
   const std::vector<int>& tiles_;
   const std::uint32_t first_;
   const int count_;
+  const std::atomic<bool>* cancel_;
   std::atomic<int> next_{0}, done_{0};
   std::atomic<bool> stop_{false};
   std::mutex mutex_;
@@ -245,7 +252,8 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
   Preparation preparation{scene.view(), options.seed, threads, preparing};
   preparation.seconds = options.seconds;
   if (options.warn) preparation.warn = options.warn;
-  if (!scene.integrator().prepare(preparation)) result.end = RenderEnd::cancelled;
+  if (!options.isPrepared && !scene.integrator().prepare(preparation))
+    result.end = RenderEnd::cancelled;
 
   const Crop crop = film.crop();
   const Job job{
@@ -272,7 +280,7 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
   for (int done = int(film.minSamples()), pass = 1; result.end == RenderEnd::finished;) {
     if (wanted > 0 && done >= wanted) break;
     const int count = wanted > 0 ? std::min(pass, wanted - done) : pass;
-    const bool whole = Pass(job, tiles, std::uint32_t(done), count)
+    const bool whole = Pass(job, tiles, std::uint32_t(done), count, options.cancel)
                            .run(threads, result.counters, [&](double share) {
                              report(shareOf(done + share * count), done, "rendering");
                              return cancelled() || timeUp();
@@ -286,7 +294,8 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
     if (adaptive && adaptive->isDone()) break;
     if (whole && timeUp() && done != wanted) result.end = RenderEnd::timeUp;
     if (whole && cancelled() && done != wanted) result.end = RenderEnd::cancelled;
-    pass = std::min(kMaxPass, std::max(pass, done));
+    if (whole && options.passed) options.passed();
+    pass = std::min(options.mostInPass, std::max(pass, done));
   }
   result.samples = int(film.minSamples()), result.mostSamples = int(film.maxSamples());
   result.meanSamples = film.meanSamples();
@@ -299,7 +308,7 @@ Rgb inspectSample(Scene& scene, const Film& film, int x, int y, std::uint32_t in
                   const RenderOptions& options, PathRecord& record) {
   Counters counters;
   const auto goOn = [](double) { return true; };
-  scene.integrator().prepare({scene.view(), options.seed, 1, goOn});
+  if (!options.isPrepared) scene.integrator().prepare({scene.view(), options.seed, 1, goOn});
   const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, options.seed);
   const auto start = cameraRay(scene.camera(), PixelFilterSampler(scene.film().filter), sampler, x,
                                y, film.width(), film.height(), true);

@@ -37,6 +37,10 @@ struct RenderOptions {
       nullptr;  ///< on the calling thread, a few times a second
   /// Of what the integrator has to say to the user, on the calling thread; null: nobody listens.
   std::function<void(const std::string&)> warn = nullptr;
+  /// After each pass over the film, which stands still meanwhile, on the calling thread.
+  std::function<void()> passed = nullptr;
+  int mostInPass = 16;      ///< samples a pixel: how coarse progress may be
+  bool isPrepared = false;  ///< the integrator was, by an earlier call for the same scene and seed
 };
 
 enum class RenderEnd { finished, timeUp, cancelled };

@@ -32,25 +32,31 @@ std::string described(const Block& block) {
   return block.plugin.empty() ? block.kind : block.kind + " " + block.plugin;
 }
 
+/// The one that counts: a later camera or integrator replaces an earlier one.
+const Block* lastOf(const char* kind, const SceneDesc& description) {
+  const auto found = std::find_if(description.blocks.rbegin(), description.blocks.rend(),
+                                  [&](const Block& b) { return b.kind == kind; });
+  return found == description.blocks.rend() ? nullptr : &*found;
+}
+
 }  // namespace
 
-SceneBuilder::SceneBuilder(const SceneDesc& description, const Registry& registry,
+SceneBuilder::SceneBuilder(Scene& scene, const SceneDesc& description, const Registry& registry,
                            const BuildOptions& options, Diagnostics& diagnostics)
     : description_(description),
       registry_(registry),
       options_(options),
       diagnostics_(diagnostics),
-      scene_(std::make_unique<Scene>()),
-      impl_(scene_->impl()),
-      host_(description, impl_.textures, diagnostics) {}
+      impl_(scene.impl()),
+      host_(description, impl_.textures, diagnostics, options.files) {}
 
-std::unique_ptr<Scene> SceneBuilder::build() {
+bool SceneBuilder::build() {
   impl_.hash = description_.hash;
   impl_.textures.setBudget(options_.textureMemory);
   for (const Block& block : description_.blocks) addTop(block);
   addCamera();
   addIntegrator();
-  if (diagnostics_.hasErrors()) return nullptr;
+  if (diagnostics_.hasErrors()) return false;
   impl_.commit();
   if (const std::size_t n = impl_.world.dropped())
     diagnostics_.warning({},
@@ -62,12 +68,10 @@ std::unique_ptr<Scene> SceneBuilder::build() {
                          "the scene holds no shape and no environment: the picture will be black");
   else if (impl_.lightList.empty())
     diagnostics_.warning({}, "the scene holds no light: the picture will be black");
-  return std::move(scene_);
+  return true;
 }
 
 void SceneBuilder::addTop(const Block& block) {
-  if (block.kind == "camera") cameraBlock_ = &block;
-  if (block.kind == "integrator") integratorBlock_ = &block;
   if (block.kind == "film") readFilm(block);
   if (block.kind == "light") addLight(block);
   if (block.kind == "shape" || block.kind == "union") addShape(block, nullptr);
@@ -261,20 +265,20 @@ void SceneBuilder::addLight(const Block& block) {
 }
 
 void SceneBuilder::addCamera() {
-  if (!cameraBlock_) {
+  const Block* block = lastOf("camera", description_);
+  if (!block) {
     error({},
           "the scene has no camera: write one, as 'camera pinhole { location <0, 1, -5> look_at "
           "<0, 1, 0> }'");
     return;
   }
-  if (isInvertible(cameraBlock_->world, cameraBlock_->span))
-    impl_.camera = create<Camera>(*cameraBlock_);
+  if (isInvertible(block->world, block->span)) impl_.camera = create<Camera>(*block);
 }
 
 void SceneBuilder::addIntegrator() {
   Block wanted;
   wanted.kind = "integrator", wanted.plugin = "path";
-  if (integratorBlock_) wanted = *integratorBlock_;
+  if (const Block* block = lastOf("integrator", description_)) wanted = *block;
   if (!options_.integrator.empty() && options_.integrator != wanted.plugin) {
     wanted = {};
     wanted.kind = "integrator", wanted.plugin = options_.integrator;
@@ -320,9 +324,39 @@ Diagnostic& SceneBuilder::error(Span span, std::string message) {
   return diagnostics_.error(span, std::move(message));
 }
 
+bool SceneBuilder::renewCamera() {
+  const auto before = impl_.camera;
+  addCamera();
+  if (!diagnostics_.hasErrors()) return true;
+  impl_.camera = before;
+  return false;
+}
+
+bool SceneBuilder::renewIntegrator() {
+  const auto before = impl_.integrator;
+  const std::string name = impl_.integratorName;
+  addIntegrator();
+  if (!diagnostics_.hasErrors()) return true;
+  impl_.integrator = before, impl_.integratorName = name;
+  return false;
+}
+
 std::unique_ptr<Scene> buildScene(const SceneDesc& description, const Registry& registry,
                                   const BuildOptions& options, Diagnostics& diagnostics) {
-  return SceneBuilder(description, registry, options, diagnostics).build();
+  auto scene = std::make_unique<Scene>();
+  return SceneBuilder(*scene, description, registry, options, diagnostics).build()
+             ? std::move(scene)
+             : nullptr;
+}
+
+bool renewCamera(Scene& scene, const SceneDesc& description, const Registry& registry,
+                 Diagnostics& diagnostics) {
+  return SceneBuilder(scene, description, registry, {}, diagnostics).renewCamera();
+}
+
+bool renewIntegrator(Scene& scene, const SceneDesc& description, const Registry& registry,
+                     const BuildOptions& options, Diagnostics& diagnostics) {
+  return SceneBuilder(scene, description, registry, options, diagnostics).renewIntegrator();
 }
 
 }  // namespace vestige

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a description to a scene: creates plugins, places shapes, wires materials and lights. Used
-// by buildScene() only.
+// by buildScene() and its two sisters only.
 #pragma once
 #include <map>
 #include <memory>
@@ -20,9 +20,12 @@ InputValue constantInput(const Parameter& row, const Value& value);
 
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneDesc& description, const Registry& registry, const BuildOptions& options,
-               Diagnostics& diagnostics);
-  std::unique_ptr<Scene> build();
+  SceneBuilder(Scene& scene, const SceneDesc& description, const Registry& registry,
+               const BuildOptions& options, Diagnostics& diagnostics);
+  /// Fills an empty scene; false after an error. The other two replace one part of a full one.
+  bool build();
+  bool renewCamera();
+  bool renewIntegrator();
 
  private:
   template <class Interface>
@@ -56,11 +59,8 @@ class SceneBuilder {
   const Registry& registry_;
   const BuildOptions& options_;
   Diagnostics& diagnostics_;
-  std::unique_ptr<Scene> scene_;
   Scene::Impl& impl_;
   SceneHost host_;
-  const Block* cameraBlock_ = nullptr;
-  const Block* integratorBlock_ = nullptr;
   Span place_;  ///< of the shape being placed
   std::map<std::string, std::shared_ptr<const Shape>> shapes_;
 };

@@ -3,10 +3,13 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <string_view>
 
 #include "engine/scene/library_file.h"
@@ -45,6 +48,34 @@ std::string refusal(const VestigePlugin& e) {
   return "";
 }
 
+/// The loader knows libraries by name and would give the old one again for a file that was built
+/// anew: such a file is opened as a copy under another name. Null with the loader's words in `why`.
+void* openLibrary(const std::string& file, std::string& why) {
+  struct Opened {
+    fs::file_time_type written;
+    std::string name;  ///< that the loader knows it by
+  };
+  static std::map<std::string, Opened> known;
+  std::error_code failed;
+  const fs::file_time_type written = fs::last_write_time(file, failed);
+  const auto before = known.find(file);
+  if (before != known.end() && before->second.written == written)
+    if (void* library = dlopen(before->second.name.c_str(), RTLD_NOW | RTLD_LOCAL)) return library;
+  std::string name = file;
+  const bool isCopy = before != known.end() && !failed;
+  if (isCopy) {
+    name = (fs::temp_directory_path(failed) / "vestige-XXXXXX").string();
+    const int made = mkstemp(name.data());
+    if (made >= 0) close(made);
+    fs::copy_file(file, name, fs::copy_options::overwrite_existing, failed);
+  }
+  known[file] = {written, name};
+  void* library = failed && isCopy ? nullptr : dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!library) why = failed && isCopy ? failed.message() : dlerror();
+  if (isCopy) fs::remove(name, failed);
+  return library;
+}
+
 std::string brokenPromise(const VestigePlugin& e, const std::optional<PluginName>& promised) {
   if (!promised || *promised == PluginName{e.kind, e.name}) return "";
   return fmt::format("its name promises {} '{}', but it holds {} '{}': call it {}_{}.so",
@@ -75,11 +106,8 @@ std::optional<PluginName> promisedBy(const std::string& file) {
 std::optional<Plugin> openPlugin(const std::string& file, const std::optional<PluginName>& promised,
                                  std::string& why) {
   if (why = cutShort(file); !why.empty()) return std::nullopt;
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!library) {
-    why = dlerror();
-    return std::nullopt;
-  }
+  void* library = openLibrary(file, why);
+  if (!library) return std::nullopt;
   const auto* entry = static_cast<const VestigePlugin*>(dlsym(library, "vestige_plugin"));
   why = entry ? refusal(*entry) : "it exports no symbol 'vestige_plugin'";
   if (why.empty()) why = brokenPromise(*entry, promised);

@@ -88,7 +88,7 @@ void Registry::Catalogue::open(const PluginName& wanted) {
   for (auto file = files.mapped().rbegin(); file != files.mapped().rend(); ++file) {
     std::string why;
     if (const std::optional<Plugin> plugin = openPlugin(*file, wanted, why)) return take(*plugin);
-    refused.push_back({wanted, notLoaded(*file, why)});
+    refused.push_back({wanted, *file, notLoaded(*file, why)});
   }
 }
 
@@ -180,6 +180,12 @@ std::vector<const Schema*> Registry::schemas() const {
   std::vector<const Schema*> all;
   for (const auto& [ignored, schema] : catalogue_->schemas) all.push_back(&schema);
   return all;
+}
+
+std::vector<std::string> Registry::loadedFiles() const {
+  std::vector<std::string> files;
+  for (const auto& [ignored, plugin] : catalogue_->plugins) files.push_back(plugin.file);
+  return files;
 }
 
 const std::vector<Refusal>& Registry::refused() const { return catalogue_->refused; }

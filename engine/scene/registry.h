@@ -18,7 +18,8 @@ std::string noteOnDifferences(const Plugin& plugin);
 
 /// A library that was asked for and could not be taken.
 struct Refusal {
-  PluginName promised;   ///< by the name of its file
+  PluginName promised;  ///< by the name of its file
+  std::string file;
   std::string sentence;  ///< for the user: which file, and why
 };
 
@@ -60,6 +61,8 @@ class Registry {
   std::vector<Plugin> plugins() const;
   std::vector<const Schema*> schemas() const;
 
+  /// Files of all plugins that are loaded by now.
+  std::vector<std::string> loadedFiles() const;
   /// What was asked for so far in vain.
   const std::vector<Refusal>& refused() const;
 

@@ -2,6 +2,7 @@
 // A scene that can be rendered, and how it is made from its description.
 #pragma once
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,10 +57,18 @@ struct BuildOptions {
   /// Further settings of the integrator, as the scene would have written them; by name.
   std::vector<std::pair<std::string, Value>> settings = {};
   std::size_t textureMemory = TextureStore::kDefaultBudget;  ///< bytes, see TextureStore
+  /// Receives the places of all files that were looked for, found or not; null: nobody asks.
+  std::set<std::string>* files = nullptr;
 };
 
 /// Null if `diagnostics` got an error: missing file, refused parameter, singular transform, ...
 std::unique_ptr<Scene> buildScene(const SceneDesc& description, const Registry& registry,
                                   const BuildOptions& options, Diagnostics& diagnostics);
+/// The camera, or the integrator, of a description and options in place of the scene's; nothing
+/// else is built anew. False, and all as before, if `diagnostics` got an error.
+bool renewCamera(Scene& scene, const SceneDesc& description, const Registry& registry,
+                 Diagnostics& diagnostics);
+bool renewIntegrator(Scene& scene, const SceneDesc& description, const Registry& registry,
+                     const BuildOptions& options, Diagnostics& diagnostics);
 
 }  // namespace vestige

@@ -23,6 +23,7 @@ std::string SceneHost::find(const std::string& file, Span span, std::string& err
   std::string places;
   for (const fs::path& path : tried) {
     const fs::path whole = fs::absolute(path, ignored).lexically_normal();
+    if (files_) files_->insert(whole.string());
     if (fs::is_directory(whole, ignored)) {
       error = fmt::format("'{}' is a folder, not a file", whole.string());
       return "";

@@ -10,8 +10,10 @@ namespace vestige {
 
 class SceneHost final : public Host {
  public:
-  SceneHost(const SceneDesc& description, TextureStore& textures, Diagnostics& diagnostics)
-      : description_(description), textures_(textures), diagnostics_(diagnostics) {}
+  /// `files` receives the places of all files that are looked for; null: nobody asks.
+  SceneHost(const SceneDesc& description, TextureStore& textures, Diagnostics& diagnostics,
+            std::set<std::string>* files)
+      : description_(description), textures_(textures), diagnostics_(diagnostics), files_(files) {}
 
   std::string find(const std::string& file, Span span, std::string& error) override;
   std::shared_ptr<const Texture> texture(const TextureRequest& request,
@@ -25,6 +27,7 @@ class SceneHost final : public Host {
   const SceneDesc& description_;
   TextureStore& textures_;
   Diagnostics& diagnostics_;
+  std::set<std::string>* files_;
   Span place_;
   std::set<std::string> noted_;
 };

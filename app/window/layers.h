@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of a picture is shown: its colours, or one of the other quantities, made visible.
+#pragma once
+#include "app/window/window.h"
+
+namespace vestige::app {
+
+/// Colours, or (`isAov`) the last quantity of the film scaled to [0, 1]: normals as colours,
+/// footprints by their logarithm.
+Picture layerOf(const Film::Means& means, bool isAov);
+Picture colours(const Image& image);
+/// Relative noise of a picture, guessed from neighbouring pixels: the median over pixels of
+/// |luminance - mean of the two beside it| / mean, scaled to a standard error. 0: too small to
+/// tell.
+double noiseOf(const Picture& picture);
+
+/// Of the side panel and the line at the bottom, in window pixels.
+float panelWidth();
+float statusHeight();
+
+}  // namespace vestige::app

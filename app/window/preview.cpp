@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/window/preview.h"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "engine/scene/scene_impl.h"
+#include "lang/source.h"
+
+namespace vestige::app {
+namespace {
+
+constexpr int kCoarse = 8;           ///< the first picture's pixels are so many pixels wide
+constexpr int kFewPixels = 96 * 96;  ///< no coarser picture is needed of so few
+constexpr int kMostInPass = 4;       ///< samples a pixel between two pictures
+constexpr int kFirstParticles = 20000, kMoreParticles = 4;  ///< then so many times as many
+
+/// Numbers of particles, growing, for an integrator that shoots some; {0} for the others.
+std::vector<std::int64_t> particleRounds(const OpenScene& open, const BuildOptions& build) {
+  const Schema* schema = open.registry.schema("integrator", open.scene().integratorName());
+  const Parameter* row = schema ? schema->find("particles") : nullptr;
+  if (!row) return {0};
+  auto wanted = std::int64_t(row->initial.v[0]);
+  for (const Block& b : open.loaded.text.scene.blocks)
+    if (b.kind == "integrator" && b.plugin == open.scene().integratorName())
+      if (const Value* given = b.find("particles")) wanted = std::int64_t(given->v[0]);
+  for (const auto& [name, value] : build.settings)
+    if (name == "particles") wanted = std::int64_t(value.v[0]);
+  std::vector<std::int64_t> rounds;
+  for (std::int64_t n = kFirstParticles; n < wanted; n *= kMoreParticles) rounds.push_back(n);
+  rounds.push_back(wanted);
+  return rounds;
+}
+
+}  // namespace
+
+Preview::Preview(SceneInput input, RenderOptions render, std::function<void()> wake)
+    : input_(std::move(input)), render_(std::move(render)), wake_(std::move(wake)) {
+  thread_ = std::thread([this] { work(); });
+}
+
+Preview::~Preview() {
+  {
+    const std::lock_guard lock(mutex_);
+    quits_ = true, cancel_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+// ---------------------------------------------------------------- from the window
+void Preview::want(const Wish& wish) {
+  const std::lock_guard lock(mutex_);
+  if (!wish.isSamePicture(wish_) || wish.isPaused != wish_.isPaused ||
+      wish.samples != wish_.samples)
+    isFresh_ = cancel_ = true;
+  wish_ = wish;
+  changed_.notify_all();
+}
+
+void Preview::inspect(int x, int y, std::uint32_t sample) {
+  const std::lock_guard lock(mutex_);
+  requests_ = {{x, y, sample}};  // an older question is no longer of interest
+  changed_.notify_all();
+}
+
+std::shared_ptr<const Snapshot> Preview::snapshot() const {
+  const std::lock_guard lock(mutex_);
+  return snapshot_;
+}
+std::shared_ptr<const Inspection> Preview::inspection() const {
+  const std::lock_guard lock(mutex_);
+  return inspection_;
+}
+std::shared_ptr<const OpenScene> Preview::open() const {
+  const std::lock_guard lock(mutex_);
+  return shown_;
+}
+Status Preview::status() const {
+  const std::lock_guard lock(mutex_);
+  return status_;
+}
+std::set<std::string> Preview::files() const {
+  const std::lock_guard lock(mutex_);
+  return files_;
+}
+
+// ---------------------------------------------------------------- the working thread
+void Preview::work() {
+  for (;;) {
+    Wish wish;
+    bool isFresh;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return quits_ || isFresh_ || !requests_.empty(); });
+      if (quits_) return;
+      wish = wish_, isFresh = isFresh_;
+      isFresh_ = cancel_ = false;
+    }
+    if (wish.isPaused) setPhase("paused");
+    if (isFresh && !wish.isPaused) {
+      wished_ = secondsNow(), hasFirst_ = false;
+      try {
+        if (makeReady(wish)) renderPicture(wish);
+      } catch (const std::exception& e) {
+        fail(e.what());
+      }
+    }
+    answerRequests(wish);
+  }
+}
+
+bool Preview::makeReady(const Wish& wish) {
+  const bool isStale = !open_ || wish.reload != done_.reload;
+  if (isStale) {
+    // Errors stay on show until the next reading, and with them the picture before.
+    if (!load(wish)) {
+      done_.reload = wish.reload;
+      return false;
+    }
+    done_ = wish;
+    done_.way = done_.view = -1;
+  }
+  return !status().isWrong && renew(wish);
+}
+
+bool Preview::load(const Wish& wish) {
+  setPhase("reading");
+  auto fresh = std::make_shared<OpenScene>(loadRegistry(input_.pluginPaths));
+  std::set<std::string> files = {input_.file};
+  BuildOptions build = wish.build;
+  build.files = &files;
+  build.integrator.clear(), build.footprint.clear(), build.settings.clear();  // see renew()
+  fresh->loaded = loadScene(input_, fresh->registry, Stage::built, build);
+  for (int i = 0; i < fresh->loaded.text.sources->size(); ++i)
+    files.insert(fresh->loaded.text.sources->text(i).name);
+  for (const std::string& file : fresh->registry.loadedFiles()) files.insert(file);
+  for (const Refusal& r : fresh->registry.refused()) files.insert(r.file);
+  {
+    const std::lock_guard lock(mutex_);
+    files_.swap(files);
+  }
+  complainAbout(fresh->loaded);
+  const bool isFine = fresh->loaded.scene && isAccepted(fresh->loaded.text, input_.werror);
+  for (const Block& b : fresh->loaded.text.scene.blocks)
+    if (b.kind == "camera") fresh->camera = b;
+  if (const Schema* s = fresh->registry.schema("camera", fresh->camera.plugin))
+    fresh->cameraSchema = *s;
+  if (isFine) fresh->integrators = fresh->registry.names("integrator");
+  const std::lock_guard lock(mutex_);
+  status_.isWrong = !isFine;
+  if (!isFine) return false;
+  open_ = fresh, shown_ = fresh;
+  return true;
+}
+
+void Preview::complainAbout(const LoadedScene& loaded) {
+  std::vector<Complaint> complaints;
+  for (const Diagnostic& d : loaded.text.diagnostics.list()) {
+    std::ostringstream text;
+    lang::print(text, d, *loaded.text.sources, false);
+    complaints.push_back({d.severity, text.str(), lang::locate(d.span, *loaded.text.sources)});
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    status_.complaints.swap(complaints);
+  }
+  wake_();
+}
+
+/// Camera and integrator, where they are not yet as wished.
+bool Preview::renew(const Wish& wish) {
+  Diagnostics diagnostics;
+  SceneDesc text = open_->loaded.text.scene;
+  if (wish.view != done_.view) {
+    if (wish.camera) text.blocks.push_back(*wish.camera);
+    renewCamera(open_->scene(), text, open_->registry, diagnostics);
+  }
+  if (wish.way != done_.way)
+    renewIntegrator(open_->scene(), text, open_->registry, wish.build, diagnostics);
+  done_ = wish;
+  if (!diagnostics.hasErrors()) return true;
+  fail(diagnostics.list().front().message);
+  return false;
+}
+
+Film Preview::filmFor(const Wish& wish, int scale) const {
+  const Film whole = makeFilm(open_->scene(), wish.width, wish.height, nullptr, {});
+  return makeFilm(open_->scene(), std::max(1, whole.width() / scale),
+                  std::max(1, whole.height() / scale), wish.region ? wish.region->data() : nullptr,
+                  wish.aovs);
+}
+
+void Preview::renderPicture(const Wish& wish) {
+  if (film_ && wish.isSamePicture(filmWish_)) {
+    if (renderStage(wish, *film_, 1, wish.samples, true)) setPhase("finished");
+    return;
+  }
+  film_.reset();
+  const std::vector<std::int64_t> rounds = particleRounds(*open_, wish.build);
+  bool isPrepared = false;
+  for (const std::int64_t particles : rounds) {
+    if (particles > 0) {
+      BuildOptions build = wish.build;
+      build.settings.push_back({"particles", numberValue(double(particles))});
+      Diagnostics diagnostics;
+      if (!renewIntegrator(open_->scene(), open_->loaded.text.scene, open_->registry, build,
+                           diagnostics))
+        return fail(diagnostics.list().front().message);
+      isPrepared = false;
+    }
+    Film film = filmFor(wish, 1), coarse = filmFor(wish, kCoarse);
+    if (particles == rounds.front() && film.width() * film.height() > kFewPixels) {
+      if (!renderStage(wish, coarse, kCoarse, 1, false)) return;
+      isPrepared = true;
+    }
+    if (particles != rounds.back()) {
+      if (!renderStage(wish, film, 1, 1, isPrepared)) return;
+      continue;
+    }
+    film_ = std::move(film), filmWish_ = wish;
+    if (!renderStage(wish, *film_, 1, wish.samples, isPrepared)) {
+      if (film_->maxSamples() == 0) film_.reset();  // perhaps not even prepared
+      return;
+    }
+  }
+  setPhase("finished");
+}
+
+bool Preview::renderStage(const Wish& wish, Film& film, int scale, int samples, bool isPrepared) {
+  Scene& scene = open_->scene();
+  RenderOptions options = render_;
+  options.samples = samples;
+  options.cancel = &cancel_;
+  options.isPrepared = isPrepared;
+  options.mostInPass = kMostInPass;
+  const double start = secondsNow();
+  options.passed = [&] {
+    publish(wish, film, scale, secondsNow() - start);
+    answerRequests(wish);
+  };
+  options.progress = [&](const Progress& p) {
+    {
+      const std::lock_guard lock(mutex_);
+      status_.phase = p.phase, status_.share = p.share, status_.remaining = p.remaining;
+      status_.samples = p.samples, status_.wanted = p.wanted;
+    }
+    answerRequests(wish);
+    wake_();
+  };
+  const RenderResult result = render(scene, film, options);
+  {
+    const std::lock_guard lock(mutex_);
+    if (result.seconds > 0)
+      status_.raysPerSecond =
+          double(result.counters.rays + result.counters.shadowRays) / result.seconds;
+    status_.samples = result.samples;
+  }
+  return result.end == RenderEnd::finished;
+}
+
+void Preview::publish(const Wish& wish, const Film& film, int scale, double seconds) {
+  auto fresh = std::make_shared<Snapshot>();
+  const Film whole = makeFilm(open_->scene(), wish.width, wish.height, nullptr, {});
+  fresh->open = open_, fresh->camera = open_->scene().impl().camera;
+  fresh->means = film.means(), fresh->crop = film.crop();
+  fresh->filmWidth = whole.width(), fresh->filmHeight = whole.height();
+  fresh->scale = scale, fresh->samples = int(film.minSamples()), fresh->seconds = seconds;
+  fresh->wish = wish, fresh->integrator = open_->scene().integratorName();
+  {
+    const std::lock_guard lock(mutex_);
+    if (!hasFirst_) status_.firstPicture = secondsNow() - wished_;
+    hasFirst_ = true;
+    status_.samples = fresh->samples;
+    snapshot_ = std::move(fresh);
+  }
+  wake_();
+}
+
+void Preview::answerRequests(const Wish& wish) {
+  Request request;
+  {
+    const std::lock_guard lock(mutex_);
+    if (requests_.empty()) return;
+    request = requests_.front();
+    requests_.clear();
+  }
+  if (!open_) return;
+  const Film film = makeFilm(open_->scene(), wish.width, wish.height, nullptr, {});
+  if (request.x < 0 || request.y < 0 || request.x >= film.width() || request.y >= film.height())
+    return;
+  auto fresh = std::make_shared<Inspection>();
+  fresh->open = open_, fresh->camera = open_->scene().impl().camera;
+  fresh->x = request.x, fresh->y = request.y, fresh->sample = request.sample;
+  fresh->filmWidth = film.width(), fresh->filmHeight = film.height();
+  RenderOptions options = render_;
+  options.samples = wish.samples, options.isPrepared = true;
+  fresh->radiance = inspectSample(open_->scene(), film, request.x, request.y, request.sample,
+                                  options, fresh->path);
+  {
+    const std::lock_guard lock(mutex_);
+    inspection_ = std::move(fresh);
+  }
+  wake_();
+}
+
+void Preview::fail(const std::string& sentence) {
+  {
+    const std::lock_guard lock(mutex_);
+    status_.isWrong = true;
+    status_.phase = "stopped";
+    status_.complaints = {{Severity::error, sentence, {}}};
+  }
+  wake_();
+}
+
+void Preview::setPhase(const std::string& phase) {
+  {
+    const std::lock_guard lock(mutex_);
+    status_.phase = phase;
+  }
+  wake_();
+}
+
+}  // namespace vestige::app

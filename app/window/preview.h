@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renders in the background what the window wants to see. Wishes never wait: the newest counts, and
+// what was under way for an older one is dropped. Knows nothing of windows.
+#pragma once
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "app/path_text.h"
+#include "app/scene_input.h"
+#include "engine/render/session.h"
+
+namespace vestige::app {
+
+/// What to show. A counter goes up when its part changed: only what stands below it is done anew.
+struct Wish {
+  int reload = 0;  ///< some file did: text, scene, picture
+  int way = 0;     ///< how light is found: the integrator, then the picture
+  BuildOptions build;
+  int view = 0;                                 ///< the camera, then the picture
+  std::optional<Block> camera;                  ///< in place of the text's
+  int picture = 0;                              ///< how it is sampled
+  int width = 0, height = 0;                    ///< 0: the scene's
+  std::optional<std::array<double, 4>> region;  ///< of the film, in place of the scene's crop
+  std::vector<Aov> aovs;
+  int samples = 0;  ///< a pixel; 0: what the scene says. More of them go on with the same picture
+  bool isPaused = false;  ///< keeps the picture, and goes on with it later
+
+  bool isSamePicture(const Wish& other) const {
+    return reload == other.reload && way == other.way && view == other.view &&
+           picture == other.picture;
+  }
+};
+
+/// A scene as it was read, kept alive by everything that was made from it.
+struct OpenScene {
+  explicit OpenScene(Registry r) : registry(std::move(r)) {}
+  Registry registry;
+  LoadedScene loaded;
+  // For the window, which may not ask the registry: that is the working thread's.
+  Block camera;
+  Schema cameraSchema;
+  std::vector<std::string> integrators;
+  Scene& scene() const { return *loaded.scene; }
+};
+
+/// The picture so far. Nobody changes it any more.
+struct Snapshot {
+  std::shared_ptr<const OpenScene> open;
+  std::shared_ptr<const Camera> camera;
+  Film::Means means;
+  Crop crop;
+  int filmWidth = 0, filmHeight = 0;  ///< of the whole film in its final size
+  int scale = 1;                      ///< a pixel of `means` is so many pixels wide
+  int samples = 0;
+  double seconds = 0;  ///< since the wish
+  Wish wish;
+  std::string integrator;
+};
+
+/// What the text, or a plugin, has to say to the user.
+struct Complaint {
+  Severity severity;
+  std::string text;   ///< with line and caret
+  lang::Place place;  ///< line 0: nowhere
+};
+
+struct Status {
+  std::string phase = "reading";     ///< "reading", "preparing", "rendering", "finished", "paused"
+  double share = 0, remaining = -1;  ///< as in Progress
+  int samples = 0, wanted = 0;
+  double raysPerSecond = 0;
+  double firstPicture = 0;  ///< seconds from the last wish to its first picture
+  bool isWrong = false;     ///< the scene could not be read: an older picture is shown
+  std::vector<Complaint> complaints;
+};
+
+/// One path, for the inspector.
+struct Inspection {
+  std::shared_ptr<const OpenScene> open;
+  std::shared_ptr<const Camera> camera;
+  int x = 0, y = 0, filmWidth = 0, filmHeight = 0;
+  std::uint32_t sample = 0;
+  RecordedPath path;
+  Rgb radiance;
+};
+
+class Preview {
+ public:
+  /// `wake` is called, on another thread, when there is something new to see.
+  Preview(SceneInput input, RenderOptions render, std::function<void()> wake);
+  ~Preview();
+  Preview(const Preview&) = delete;
+  Preview& operator=(const Preview&) = delete;
+
+  void want(const Wish& wish);
+  /// Traces that sample of that pixel of the film and keeps its path; soon, whatever else is under
+  /// way.
+  void inspect(int x, int y, std::uint32_t sample);
+
+  std::shared_ptr<const Snapshot> snapshot() const;
+  std::shared_ptr<const Inspection> inspection() const;
+  std::shared_ptr<const OpenScene> open() const;
+  Status status() const;
+  /// Every file that the scene came from or looked for, plugin libraries too.
+  std::set<std::string> files() const;
+
+ private:
+  struct Request {
+    int x, y;
+    std::uint32_t sample;
+  };
+
+  void work();
+  /// False where the picture cannot be made.
+  bool makeReady(const Wish& wish);
+  bool load(const Wish& wish);
+  void complainAbout(const LoadedScene& loaded);
+  bool renew(const Wish& wish);
+  void renderPicture(const Wish& wish);
+  /// One size and one set of particles; false if something newer is wanted or it cannot be.
+  bool renderStage(const Wish& wish, Film& film, int scale, int samples, bool isPrepared);
+  Film filmFor(const Wish& wish, int scale) const;
+  void publish(const Wish& wish, const Film& film, int scale, double seconds);
+  void answerRequests(const Wish& wish);
+  void fail(const std::string& sentence);
+  void setPhase(const std::string& phase);
+
+  const SceneInput input_;
+  const RenderOptions render_;
+  const std::function<void()> wake_;
+
+  mutable std::mutex mutex_;  ///< over everything down to the next line
+  std::condition_variable changed_;
+  Wish wish_;
+  bool isFresh_ = true, quits_ = false;
+  std::deque<Request> requests_;
+  std::shared_ptr<const Snapshot> snapshot_;
+  std::shared_ptr<const Inspection> inspection_;
+  std::shared_ptr<const OpenScene> shown_;
+  Status status_;
+  std::set<std::string> files_;
+
+  std::atomic<bool> cancel_{false};
+  // Of the working thread alone:
+  std::shared_ptr<OpenScene> open_;
+  Wish done_;  ///< what open_ was made for
+  double wished_ = 0;
+  bool hasFirst_ = false;
+  std::optional<Film> film_;  ///< of the last stage, as far as it got
+  Wish filmWish_;             ///< what it was made for
+  std::thread thread_;
+};
+
+}  // namespace vestige::app

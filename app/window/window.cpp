@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/window/window.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "app/terminal.h"
+#include "app/window/layers.h"
+
+namespace vestige::app {
+namespace {
+
+constexpr double kWatchEvery = 0.15;     ///< seconds
+constexpr double kFrameEvery = 1.0 / 8;  ///< while the renderer works: drawing takes a core as well
+constexpr float kMargin = 8;
+
+std::string lastError;  // GLFW tells errors to a function, before there is a window
+
+Window& of(GLFWwindow* w) { return *static_cast<Window*>(glfwGetWindowUserPointer(w)); }
+
+}  // namespace
+
+Window::Window(const ViewRequest& request) : request_(request) {
+  glfwSetErrorCallback([](int, const char* text) { lastError = text; });
+  if (!glfwInit())
+    throw Failure(kMachineFailed,
+                  fmt::format("no window can be opened: {}. `vestige render` needs none",
+                              lastError.empty() ? "there is no display" : lastError));
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  const std::string title =
+      std::filesystem::path(request.input.file).filename().string() + " - vestige";
+  window_ =
+      glfwCreateWindow(request.windowWidth, request.windowHeight, title.c_str(), nullptr, nullptr);
+  if (!window_) {
+    glfwTerminate();
+    throw Failure(kMachineFailed,
+                  fmt::format("no window with OpenGL 3.3 can be opened: {}", lastError));
+  }
+  glfwMakeContextCurrent(window_);
+  glfwSwapInterval(1);
+  if (const std::string missing = gl::load(); !missing.empty())
+    throw Failure(kMachineFailed, "the OpenGL driver lacks " + missing);
+  installCallbacks();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::StyleColorsDark();
+  float scale = 1;
+  glfwGetWindowContentScale(window_, &scale, nullptr);
+  ImGui::GetStyle().ScaleAllSizes(scale);
+  ImGui::GetIO().FontGlobalScale = scale;
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // after ours: it calls them on
+  ImGui_ImplOpenGL3_Init("#version 150");
+  screen_ = std::make_unique<Screen>();
+  std::string error;
+  displays_ = displayViews(error);
+  look_.display = request.display;
+  if (!screen_->setDisplay(look_.display, error)) throw Failure(kCommandLineWrong, error);
+  if (request.isPicture) {
+    openPicture(request.input.file);
+    watch_.watch({request.input.file});
+  } else {
+    watch_.watch({request.input.file});
+    wish_.build = request.build, wish_.samples = request.render.samples;
+    wish_.width = request.width, wish_.height = request.height;
+    preview_ = std::make_unique<Preview>(request.input, request.render, glfwPostEmptyEvent);
+  }
+  if (preview_) preview_->want(wish_);
+  if (!request.reference.empty()) openReference(request.reference);
+}
+
+Window::~Window() {
+  preview_.reset();
+  screen_.reset();
+  if (texture_) gl::DeleteTextures(1, &texture_);
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+void Window::installCallbacks() {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
+    of(w).isDirty_ = true;
+    if (action != GLFW_RELEASE && !ImGui::GetIO().WantCaptureKeyboard) of(w).onKey(key, mods);
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
+    of(w).isDirty_ = true;
+    if (action == GLFW_RELEASE || !ImGui::GetIO().WantCaptureMouse)
+      of(w).onButton(button, action == GLFW_PRESS, mods);
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    of(w).isDirty_ = true;
+    of(w).onMove(x, y);
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double by) {
+    of(w).isDirty_ = true;
+    const bool isControl = glfwGetKey(w, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+                           glfwGetKey(w, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+    if (!ImGui::GetIO().WantCaptureMouse) of(w).onScroll(by, isControl);
+  });
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { of(w).isDirty_ = true; });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { of(w).isDirty_ = true; });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { of(w).isDirty_ = true; });
+}
+
+void Window::run() {
+  int settle = 3;  // ImGui needs a few frames after an event: hovering, layout
+  while (!glfwWindowShouldClose(window_)) {
+    glfwWaitEventsTimeout(settle > 0 ? 0.01 : kWatchEvery);
+    update();
+    if (isDirty_) settle = 3;
+    if (!needsFrame() && settle <= 0) continue;
+    --settle;
+    isDirty_ = false;
+    draw();
+  }
+}
+
+/// Frames for what the user does come at once, for the renderer's progress a few times a second.
+bool Window::needsFrame() {
+  if (isDirty_) return true;
+  const bool isNew = preview_ && preview_->snapshot() != snapshot_;
+  return (isNew || preview_) && glfwGetTime() - lastFrame_ > (isNew ? kFrameEvery : 0.5);
+}
+
+void Window::update() {
+  const double now = glfwGetTime();
+  walkByKeys(now - lastWalk_);
+  lastWalk_ = now;
+  if (now - lastWatch_ < kWatchEvery) return;
+  lastWatch_ = now;
+  if (preview_)
+    watch_.watch(preview_->files().empty() ? std::set{request_.input.file} : preview_->files());
+  if (!watch_.hasChanged()) return;
+  if (preview_)
+    restart(wish_.reload);
+  else
+    openPicture(request_.input.file);
+  isDirty_ = true;
+}
+
+/// A camera in the hand stays there when the text is saved, unless it is the camera that changed.
+void Window::takeScene() {
+  const auto fresh = preview_->open();
+  if (!fresh || fresh == open_) return;
+  const bool isOther = open_ && cameraText(open_->camera) != cameraText(fresh->camera);
+  open_ = fresh;
+  isDirty_ = true;
+  if (!isOther || !wish_.camera) return;
+  wish_.camera.reset();
+  restart(wish_.view);
+  say("the text's camera changed: back to it");
+}
+
+void Window::takeSnapshot() {
+  if (!preview_) return;
+  takeScene();
+  if (const auto fresh = preview_->inspection(); fresh != inspection_) {
+    inspection_ = fresh, isTextureStale_ = true;
+    vertex_ = 0;
+  }
+  const auto fresh = preview_->snapshot();
+  if (!fresh || fresh == snapshot_) return;
+  snapshot_ = fresh;
+  shown_ = layerOf(fresh->means, layer_ > 0 && !fresh->wish.aovs.empty());
+  look_.isData = layer_ > 0 && !fresh->wish.aovs.empty();
+  screen_->setPicture(shown_.rgb.data(), shown_.width, shown_.height);
+  sheet_.width = fresh->filmWidth, sheet_.height = fresh->filmHeight;
+}
+
+/// The whole picture beside the panels.
+void Window::fit() {
+  int w = 0, h = 0;
+  glfwGetFramebufferSize(window_, &w, &h);
+  const float panel = hidesPanels_ ? 0 : panelWidth(), bar = hidesPanels_ ? 0 : statusHeight();
+  const float wide = std::max(16.f, float(w) - panel - 2 * kMargin),
+              high = std::max(16.f, float(h) - bar - 2 * kMargin);
+  if (sheet_.width == 0) return;
+  sheet_.zoom = std::min(wide / float(sheet_.width), high / float(sheet_.height));
+  // Whole pixels where it is a matter of a few of them: one picture pixel, one of the window.
+  if (sheet_.zoom >= 1 && sheet_.zoom < 2) sheet_.zoom = 1;
+  if (sheet_.zoom > 2) sheet_.zoom = std::floor(sheet_.zoom);
+  sheet_.left = std::round(kMargin + (wide - sheet_.zoom * float(sheet_.width)) / 2);
+  sheet_.top = std::round(kMargin + (high - sheet_.zoom * float(sheet_.height)) / 2);
+}
+
+void Window::draw() {
+  int w = 0, h = 0;
+  glfwGetFramebufferSize(window_, &w, &h);
+  if (w == 0 || h == 0) return;  // minimised
+  takeSnapshot();
+  if (isFitted_) fit();
+  // A region is a part of the film: its pixels lie where the film has them.
+  Sheet sheet = sheet_;
+  if (snapshot_ && !request_.isPicture) {
+    const Crop& c = snapshot_->crop;
+    const float s = float(snapshot_->scale) * sheet_.zoom;
+    if (snapshot_->wish.region || c.x0 > 0 || c.y0 > 0) {
+      sheet.left += s * float(c.x0), sheet.top += s * float(c.y0);
+      sheet.width = (c.x1 - c.x0) * snapshot_->scale;
+      sheet.height = (c.y1 - c.y0) * snapshot_->scale;
+    }
+  }
+  screen_->draw(look_, sheet, w, h);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+  drawOverlay();
+  if (!hidesPanels_) drawPanels();
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  if (wantsShot_) saveScreenshot();
+  glfwSwapBuffers(window_);
+  lastFrame_ = glfwGetTime();
+}
+
+void Window::saveScreenshot() {
+  wantsShot_ = false;
+  int w = 0, h = 0;
+  glfwGetFramebufferSize(window_, &w, &h);
+  const std::string file =
+      std::filesystem::path(request_.input.file).stem().string() + "-window.png";
+  std::string error;
+  WriteOptions raw;
+  raw.display.view = "Raw";
+  say(writeImage(file, frame(w, h), raw, error) ? "wrote " + file : error);
+}
+
+void Window::say(const std::string& sentence) {
+  message_ = sentence;
+  messageUntil_ = glfwGetTime() + 6;
+  isDirty_ = true;
+}
+
+std::optional<Block> Window::camera() const {
+  if (wish_.camera) return wish_.camera;
+  if (open_) return open_->camera;
+  return std::nullopt;
+}
+
+std::optional<Vec2> Window::pixelAt(double x, double y) const {
+  float scale = 1;
+  glfwGetWindowContentScale(window_, &scale, nullptr);
+  int w = 0, fw = 0;
+  glfwGetWindowSize(window_, &w, nullptr);
+  glfwGetFramebufferSize(window_, &fw, nullptr);
+  const double density = w > 0 ? double(fw) / w : 1;
+  const Vec2 p = {Real((x * density - sheet_.left) / sheet_.zoom),
+                  Real((y * density - sheet_.top) / sheet_.zoom)};
+  if (p.x < 0 || p.y < 0 || p.x >= Real(sheet_.width) || p.y >= Real(sheet_.height))
+    return std::nullopt;
+  return p;
+}
+
+Vec2 Window::onWindow(Vec2 film) const {
+  return {Real(sheet_.left) + Real(sheet_.zoom) * film.x,
+          Real(sheet_.top) + Real(sheet_.zoom) * film.y};
+}
+
+int runWindow(const ViewRequest& request) {
+  Window window(request);
+  window.run();
+  return kFine;
+}
+
+}  // namespace vestige::app
