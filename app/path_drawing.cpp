@@ -43,6 +43,14 @@ std::string outline(std::span<const Vec2> points, const char* more) {
   return text + fmt::format("\" {}/>\n", more);
 }
 
+std::string picture(double height, const std::string& body) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+      "font-family=\"sans-serif\" font-size=\"12\">\n"
+      "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"white\"/>\n{2}</svg>\n",
+      kWidth, height, body);
+}
+
 /// 1, 2 or 5 times a power of ten, at most x.
 double roundNumber(double x) {
   const double power = std::pow(10, std::floor(std::log10(x)));
@@ -125,7 +133,7 @@ std::string scaleBar(double x, double y, double pixelsPerUnit) {
   const double size = roundNumber(70 / pixelsPerUnit);
   return line({Real(x), Real(y)}, {Real(x + size * pixelsPerUnit), Real(y)},
               "stroke=\"black\" stroke-width=\"2\"") +
-         label(x, y - 5, fmt::format("{:g} scene units", size));
+         label(x, y - 5, fmt::format("{:g} scene unit{}", size, size == 1 ? "" : "s"));
 }
 
 std::string sideText(const SideView& view, const std::vector<PathVertex>& path) {
@@ -208,11 +216,11 @@ std::string panelText(std::size_t k, const PathVertex& v, const std::vector<std:
 
 std::string pathSvg(const RecordedPath& path, const LoadedScene& loaded) {
   const std::vector<PathVertex>& all = path.vertices;
-  const auto names = numberNames(all);
   if (all.empty() || !hasSurface(all[0]))
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1 1\"/>\n";
+    return picture(kPanelHeight, label(kMargin, kMargin, "The path meets no surface."));
+  const auto names = numberNames(all);
   const SideView view(all);
-  std::string body = sideText(view, all), row;
+  std::string body = sideText(view, all);
   double y = kSideHeight, height = 0;
   int column = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -223,12 +231,7 @@ std::string pathSvg(const RecordedPath& path, const LoadedScene& loaded) {
                     y, panelText(k + 1, all[k], names[k], loaded, view.right()));
     height = std::max(height, kPanelHeight + 24 + kLine * all[k].differentials.size);
   }
-  y += height;
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-      "font-family=\"sans-serif\" font-size=\"12\">\n"
-      "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"white\"/>\n{2}</svg>\n",
-      kWidth, y, body);
+  return picture(y + height, body);
 }
 
 }  // namespace vestige::app

@@ -174,6 +174,18 @@ TEST_CASE("inspect --svg draws the path and a panel a vertex", "[app]") {
   CHECK_THAT(svg, containsText("film x: 1 x 0.0625") && containsText("film y: 1 x 0.0625"));
   CHECK_THAT(svg, !containsText("nan") && !containsText("inf"));
 
+  const std::string up = folder.write("up.scene", R"(
+camera pinhole { location <0, 2, 0> look_at <0, 4, 0> sky z }
+film { resolution <8, 8> }
+integrator path { samples 1 }
+light environment { radiance rgb 1 }
+plane { y, 0 brdf lambert { } }
+)");
+  REQUIRE(vestige({"inspect", up, "4", "4", "--svg", folder / "up.svg"}).exit == 0);
+  std::ifstream nothing(folder / "up.svg");
+  const std::string empty{std::istreambuf_iterator<char>(nothing), {}};
+  CHECK_THAT(empty, containsText("meets no surface"));
+
   const Run nowhere = vestige({"inspect", scene, "31", "40", "--svg", folder / "no/a.svg"});
   CHECK(nowhere.exit == 3);
   CHECK_THAT(nowhere.err, containsText("no/a.svg"));
