@@ -4,10 +4,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 
 #include "app/command.h"
 #include "app/scene_input.h"
+#include "app/schema_pages.h"
 #include "app/schema_text.h"
 #include "app/terminal.h"
 
@@ -16,6 +19,7 @@ namespace {
 
 struct DescribeRequest {
   std::string kind, name;
+  std::string markdown;  ///< folder for pages; "": none are written
   std::vector<std::string> pluginPaths;
   bool json = false;
 };
@@ -83,12 +87,27 @@ void printPlugins(const Schemas& schemas) {
   std::cout << table(rows, terminalWidth(STDOUT_FILENO));
 }
 
+void writePages(const Schemas& schemas, const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw Failure(kMachineFailed, fmt::format("cannot make '{}': {}", folder, error.message()));
+  for (const Page& page : schemaPages(schemas)) {
+    const std::string file = (std::filesystem::path(folder) / page.name).string();
+    std::ofstream out(file, std::ios::binary);
+    out << page.text;
+    if (!out.flush()) throw Failure(kMachineFailed, fmt::format("cannot write '{}'", file));
+  }
+}
+
 int runDescribe(const DescribeRequest& r) {
   const Registry registry = loadRegistry(r.pluginPaths);
   registry.schemas();  // opens every library, also those that the words below do not ask for
   warnOfRefused(registry, {});
   const Schemas found = lookUp(r, registry);
-  if (r.json)
+  if (!r.markdown.empty())
+    writePages(found, r.markdown);
+  else if (r.json)
     std::cout << schemasJson(found) << '\n';
   else if (r.kind.empty())
     printKinds(found);
@@ -108,7 +127,10 @@ void addDescribe(CLI::App& program, Action& chosen) {
   const auto request = std::make_shared<DescribeRequest>();
   command->add_option("kind", request->kind, "brdf, light, camera, shape, film, ...");
   command->add_option("name", request->name, "phong, area, pinhole, sphere, ...");
-  command->add_flag("--json", request->json, "for programs");
+  CLI::Option* json = command->add_flag("--json", request->json, "for programs");
+  command->add_option("--markdown", request->markdown, "write a page a kind and an index into DIR")
+      ->type_name("DIR")
+      ->excludes(json);
   addPluginPath(*command, request->pluginPaths);
   command->callback([request, &chosen] { chosen = [request] { return runDescribe(*request); }; });
 }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <fstream>
 #include <iostream>
 
 #include "app/options.h"
+#include "app/path_drawing.h"
 #include "app/path_text.h"
 #include "engine/render/session.h"
 
@@ -19,6 +21,7 @@ struct InspectRequest {
   int x = 0, y = 0, width = 0, height = 0;
   std::uint32_t sample = 0;
   bool json = false;
+  std::string svg;  ///< file for a drawing; "": none
 };
 
 constexpr const char* kLegend = R"(
@@ -26,6 +29,12 @@ V vertex, D direction that arrives there. |dV|, |dD|: how far they move per unit
 of the path; g: relative change of its contribution; delta: the share of that number's interval that
 this one path stands for. Footprint: ellipse of all delta dV together, dA and dB its full axes.
 )";
+
+void writeDrawing(const std::string& file, const RecordedPath& path, const LoadedScene& loaded) {
+  std::ofstream out(file, std::ios::binary);
+  out << pathSvg(path, loaded);
+  if (!out.flush()) throw Failure(kMachineFailed, fmt::format("cannot write '{}'", file));
+}
 
 int runInspect(const InspectRequest& r) {
   const Registry registry = loadRegistry(r.input.pluginPaths);
@@ -40,6 +49,7 @@ int runInspect(const InspectRequest& r) {
                               film.width(), film.height()));
   RecordedPath path;
   const Rgb radiance = inspectSample(*loaded.scene, film, r.x, r.y, r.sample, r.render, path);
+  if (!r.svg.empty()) writeDrawing(r.svg, path, loaded);
   if (r.json) {
     std::cout << pathJson(path, loaded, radiance) << std::endl;
     return kFine;
@@ -79,6 +89,8 @@ void addInspect(CLI::App& program, Action& chosen) {
   number("--width", 1, r->width, "pixels");
   number("--height", 1, r->height, "pixels");
   command->add_flag("--json", r->json, "for programs");
+  command->add_option("--svg", r->svg, "draw the path and its footprints into FILE")
+      ->type_name("FILE");
   addBuildOptions(*command, r->build, "Options");
   addLimits(*command, r->input.limits);
   command->callback([r, &chosen] { chosen = [r] { return runInspect(*r); }; });

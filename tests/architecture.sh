@@ -43,7 +43,7 @@ done
 # shellcheck disable=SC2016  # backticks of Markdown
 named_files() {
   grep -oE '`[a-zA-Z_0-9.]+(/[a-zA-Z_0-9.]+)+\.(h|cpp|md|sh|scene|txt|cmake)`' "$1" | tr -d '`' || true
-  grep -oE '\]\([^):]+\)' "$1" | tr -d '()]' || true
+  grep -oE '\]\([^):]+\)' "$1" | tr -d '()]' | sed 's/#.*//' || true
 }
 
 for page in CONTRIBUTING.md README.md docs/*.md docs/adr/*.md docs/plugins/*.md; do

@@ -1,11 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 // vestige describe, for people and for programs.
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "app/run.h"
 #include "support/catch.h"
 
 using nlohmann::json;
+
+namespace {
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Columns of a row of a table: bars that nothing escapes, less one.
+int columnsOf(const std::string& row) {
+  int bars = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] == '\\')
+      ++i;
+    else
+      bars += row[i] == '|';
+  }
+  return bars - 1;
+}
+
+}  // namespace
 
 TEST_CASE("describe lists the kinds and their plugins", "[app]") {
   const Run r = vestige({"describe"});
@@ -67,4 +91,54 @@ TEST_CASE("describe --json holds all schemas", "[app]") {
   }
   CHECK(found);
   CHECK(json::parse(vestige({"describe", "brdf", "phong", "--json"}).out).size() == 1);
+}
+
+TEST_CASE("docs/reference is what describe --markdown writes today", "[app]") {
+  const Folder folder;
+  // As docs/reference/make does: nobody's own plugins.
+  const Run r = vestige({"describe", "--markdown", folder / "pages"},
+                        {.variables = {{"HOME", folder / "home"}, {"VESTIGE_PLUGIN_PATH", ""}}});
+  INFO(r.err);
+  REQUIRE(r.exit == 0);
+  const std::filesystem::path kept = std::filesystem::path(VESTIGE_SOURCE_DIR) / "docs/reference";
+  INFO("The schemas and docs/reference/ differ. Run: docs/reference/make " << VESTIGE_BINARY);
+  for (const auto& page : std::filesystem::directory_iterator(folder / "pages")) {
+    const std::string name = page.path().filename().string();
+    INFO("docs/reference/" << name << " is out of date");
+    CHECK(contents(page.path()) == contents(kept / name));
+  }
+  for (const auto& page : std::filesystem::directory_iterator(kept)) {
+    const std::string name = page.path().filename().string();
+    INFO("docs/reference/" << name << " belongs to no kind any more");
+    CHECK((page.path().extension() != ".md" ||
+           std::filesystem::exists(std::filesystem::path(folder / "pages") / name)));
+  }
+}
+
+TEST_CASE("describe --markdown: a stranger's words do not break the page", "[app]") {
+  const Folder folder;
+  const Run r = vestige(
+      {"describe", "brdf", "--markdown", folder / "pages", "--plugin-path", VESTIGE_AWKWARD});
+  INFO(r.err);
+  REQUIRE(r.exit == 0);
+  const std::string page = contents(folder / "pages/brdf.md");
+  INFO(page);
+  CHECK_THAT(page, containsText("## brdf phong\n"));
+  CHECK_THAT(page, containsText("\n1\\. a \\| b, \\*c\\*, \\_d\\_, \\<b\\>e\\</b\\>, \\`f\\`, "
+                                "\\[g\\](h), \\\\i, \\&amp; \\$j\\$ and \\# k\n"));
+  CHECK_THAT(page, containsText("| `a_b` | number | W/(m^2 sr) \\| \\* |"));
+  CHECK_THAT(page, containsText("`` \"d\\|e\" \\| \"f`g\" ``"));
+  CHECK_THAT(page, containsText("must be given") && containsText("| \\- not a list |"));
+  std::istringstream lines(page);
+  for (std::string row; std::getline(lines, row);)
+    if (row.rfind("| ", 0) == 0) CHECK(columnsOf(row) == 7);
+  CHECK_THAT(contents(folder / "pages/README.md"), containsText("[awkward](brdf.md#brdf-awkward)"));
+}
+
+TEST_CASE("describe --markdown says what it could not write", "[app]") {
+  const Folder folder;
+  const std::string file = folder.write("pages", "a file");
+  const Run r = vestige({"describe", "--markdown", file});
+  CHECK(r.exit == 3);
+  CHECK_THAT(r.err, containsText(file));
 }

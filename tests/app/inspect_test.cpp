@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/run.h"
@@ -157,4 +159,34 @@ TEST_CASE("a limit of the score lets matt surfaces be", "[app]") {
   CHECK(deltas("score").first == Approx(bound).epsilon(1e-3));
   CHECK(deltas("score").second == Approx(bound).epsilon(1e-3));
   CHECK(std::min(deltas("contribution").first, deltas("contribution").second) < bound / 2);
+}
+
+TEST_CASE("inspect --svg draws the path and a panel a vertex", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", kPlane);
+  const Run r = vestige({"inspect", scene, "31", "40", "--svg", folder / "a.svg"});
+  INFO(r.err);
+  REQUIRE(r.exit == 0);
+  std::ifstream in(folder / "a.svg");
+  const std::string svg{std::istreambuf_iterator<char>(in), {}};
+  CHECK_THAT(svg, containsText("camera") && containsText("plane lambert"));
+  // A pixel of 4 / 64 = 0.0625 units, and delta 1.
+  CHECK_THAT(svg, containsText("film x: 1 x 0.0625") && containsText("film y: 1 x 0.0625"));
+  CHECK_THAT(svg, !containsText("nan") && !containsText("inf"));
+
+  const std::string up = folder.write("up.scene", R"(
+camera pinhole { location <0, 2, 0> look_at <0, 4, 0> sky z }
+film { resolution <8, 8> }
+integrator path { samples 1 }
+light environment { radiance rgb 1 }
+plane { y, 0 brdf lambert { } }
+)");
+  REQUIRE(vestige({"inspect", up, "4", "4", "--svg", folder / "up.svg"}).exit == 0);
+  std::ifstream nothing(folder / "up.svg");
+  const std::string empty{std::istreambuf_iterator<char>(nothing), {}};
+  CHECK_THAT(empty, containsText("meets no surface"));
+
+  const Run nowhere = vestige({"inspect", scene, "31", "40", "--svg", folder / "no/a.svg"});
+  CHECK(nowhere.exit == 3);
+  CHECK_THAT(nowhere.err, containsText("no/a.svg"));
 }

@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every link from one page of the documentation to another arrives: file, heading, line."""
+import os
+import re
+import sys
+
+HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def text_of(path):
+    with open(path, encoding="utf-8") as f:
+        return f.read()
+
+
+def without_code(text):
+    text = re.sub(r"(?ms)^```.*?^```", "", text)
+    text = re.sub(r"(?m)^(?: {4}|\t).*$", "", text)
+    return re.sub(r"(`+)(?!`).*?(?<!`)\1(?!`)", "", text)
+
+
+def anchors(text):
+    """As GitHub makes them of headings: lower case, blanks to hyphens, most other signs dropped."""
+    found, used = set(), {}
+    for title in re.findall(r"(?m)^#{1,6} +(.*)$", re.sub(r"(?ms)^```.*?^```", "", text)):
+        slug = re.sub(r"[^\w\- ]", "", title.strip().lower()).replace(" ", "-")
+        count = used.get(slug, 0)
+        used[slug] = count + 1
+        found.add(f"{slug}-{count}" if count else slug)
+    return found
+
+
+def problem(page, link):
+    path, _, anchor = link.partition("#")
+    target = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+    if not os.path.exists(target):
+        return "there is no such file"
+    line = re.fullmatch(r"L(\d+)", anchor)
+    if line:
+        return None if int(line.group(1)) <= text_of(target).count("\n") else "there is no such line"
+    if anchor and anchor not in anchors(text_of(target)):
+        return "there is no such heading"
+    return None
+
+
+def main():
+    pages = [os.path.join(HOME, "README.md"), os.path.join(HOME, "CONTRIBUTING.md")]
+    for folder, _, files in os.walk(os.path.join(HOME, "docs")):
+        pages += [os.path.join(folder, f) for f in files if f.endswith(".md")]
+    wrong = []
+    for page in sorted(pages):
+        for link in re.findall(r"(?<!\\)\]\(([^)\s]+)\)", without_code(text_of(page))):
+            why = None if re.match(r"\w+:", link) else problem(page, link)
+            if why:
+                wrong.append(f"{os.path.relpath(page, HOME)}: {link}: {why}")
+    if wrong:
+        sys.exit("\n".join(wrong))
+
+
+if __name__ == "__main__":
+    main()
