@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "judge/camera_tests.h"
 
-#include "judge/brdf_case.h"
 #include "judge/harsh.h"
+#include "judge/plain.h"
 #include "judge/ray_differences.h"
 #include "judge/same_answers.h"
 
@@ -75,15 +75,7 @@ CameraCases cameraCases(const Plugin& plugin, int sets, unsigned seed) {
   CameraCases cases;
   Random r(seed + 31);
   for (int tried = 0; int(cases.size()) < sets && tried < 50 * sets; ++tried) {
-    Settings s;
-    for (const Parameter& row : plugin.schema->params) {
-      if (row.type == ValueType::vec3 && tried > 0) {
-        const Vec3 p = r.point(-2, 2);
-        s[row.name] = vectorValue({double(p.x), double(p.y), double(p.z)});
-      }
-      if (row.type == ValueType::real && tried > 0 && row.initial.kind == Value::Kind::number)
-        s[row.name] = numberValue(row.initial.v[0] * double(r.number(Real(0.5), Real(1.5))));
-    }
+    const Settings s = tried == 0 ? Settings{} : plainSettings(*plugin.schema, r);
     try {
       cases.push_back(
           {"camera " + plugin.name + " {" + textOfSettings(s) + " }", make<Camera>(plugin, s)});

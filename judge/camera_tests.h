@@ -14,7 +14,7 @@ struct CameraCase {
 };
 using CameraCases = std::vector<CameraCase>;
 
-/// Defaults, and random values for the numbers of the schema.
+/// Defaults, and random values for every row that plainValue() has one for.
 CameraCases cameraCases(const Plugin& plugin, int sets, unsigned seed);
 
 /// Per unit of film and of lens coordinate.

@@ -31,7 +31,7 @@ void checkBuiltIn(unsigned seed) {
       const judge::Judgement j = judge::judgePlugin(plugin, {.samples = 1 << 13, .seed = seed});
       INFO(plugin.name << ", seed " << seed << "\n" << failures(j));
       CHECK(j.passed());
-      CHECK(j.unchecked.empty());
+      CHECK(j.unchecked.empty() == (plugin.name != "environment"));
       CHECK(j.verdicts.size() > 4);
     }
 }
