@@ -10,6 +10,7 @@ Judgement judgeCamera(const CameraCases& cases, const Effort& e) {
   j.verdicts = {verdictOf(cameraAnswersStayTheSame(cases, e)),
                 verdictOf(cameraIsNeverNan(cases, e)), verdictOf(rays),
                 verdictOf(cameraAreaIsInverseDensity(cases, e), rays.passed() ? "" : rays.method)};
+  j.timings = cameraTimings(cases);
   return j;
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wherever one stands and whatever numbers come, no light answers with NaN, infinity or a negative
-// density; and always the same.
+// density.
 #include "judge/harsh.h"
 #include "judge/light_tests.h"
-#include "judge/same_answers.h"
 
 namespace vestige::judge {
 namespace {
@@ -55,40 +54,6 @@ std::optional<Broken> brokenPromise(const Light& light, EmissionNumbers u) {
   return std::nullopt;
 }
 
-const char* const kMethods[] = {"sample()", "sampleDerivatives()", "logGradient()", "emit()",
-                                "emissionDerivatives()"};
-
-struct Question {
-  const LightCase* light;
-  Vec3 from;
-  Vec2 u, v;
-  bool isDrawn, isEmitted;
-};
-
-Bits answer(const Question& q, std::size_t method) {
-  const Light& l = *q.light->light;
-  Bits bits;
-  if (method == 0) {
-    if (const auto s = l.sample(q.from, q.u))
-      bits.add(s->hit.toLight), bits.add(s->radiance), bits.add(s->pdf), bits.add(l.pdf(s->hit)),
-          bits.add(l.eval(s->hit));
-  } else if (method == 1 && q.isDrawn) {
-    const LightJacobian j = l.sampleDerivatives(q.from, q.u);
-    for (const Vec3 d : {j.du.c[0], j.du.c[1], j.dFrom.c[0], j.dFrom.c[1], j.dFrom.c[2]})
-      bits.add(d);
-  } else if (method == 2 && q.isDrawn) {
-    const LightLogGradient g = l.logGradient(q.from, q.u);
-    bits.add(g.du.x), bits.add(g.du.y), bits.add(g.dFrom);
-  } else if (method == 3) {
-    if (const auto p = l.emit({q.u, q.v}))
-      bits.add(p->origin), bits.add(p->direction), bits.add(p->power);
-  } else if (method == 4 && q.isEmitted) {
-    const RayJacobian j = l.emissionDerivatives({q.u, q.v});
-    for (int k = 0; k < 4; ++k) bits.add(j.dOrigin[k]), bits.add(j.dDirection[k]);
-  }
-  return bits;
-}
-
 }  // namespace
 
 Finding lightIsNeverNan(const LightCases& cases, const Effort& effort) {
@@ -107,20 +72,6 @@ Finding lightIsNeverNan(const LightCases& cases, const Effort& effort) {
     });
   });
   return f;
-}
-
-Finding lightAnswersStayTheSame(const LightCases& cases, const Effort& effort) {
-  std::vector<Question> list;
-  forLightEvents(cases, {.samples = std::max(effort.samples / 8, 256), .seed = effort.seed},
-                 [&](const LightCase& c, Vec3 from, Vec2 u, Random& r) {
-                   const Vec2 v = r.pair();
-                   list.push_back({&c, from, u, v, c.light->sample(from, u).has_value(),
-                                   c.light->emit({u, v}).has_value()});
-                 });
-  const auto ask = [&](std::size_t i, std::size_t method) { return answer(list[i], method); };
-  return sameAnswers(list.size(), kMethods, ask, [&](std::size_t i, const std::string& what) {
-    return lightEvent(*list[i].light, list[i].from, list[i].u, what);
-  });
 }
 
 }  // namespace vestige::judge

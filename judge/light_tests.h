@@ -60,6 +60,9 @@ FluxFindings fluxAgrees(const LightCases& cases, const Effort& effort);
 
 // light_fuzz.cpp
 Finding lightIsNeverNan(const LightCases& cases, const Effort& effort);
+
+// light_threads.cpp
 Finding lightAnswersStayTheSame(const LightCases& cases, const Effort& effort);
+std::vector<Timing> lightTimings(const LightCases& cases);
 
 }  // namespace vestige::judge

@@ -32,6 +32,7 @@ void checkBuiltIn(unsigned seed) {
       INFO(plugin.name << ", seed " << seed << "\n" << failures(j));
       CHECK(j.passed());
       CHECK(j.unchecked.empty() == (plugin.name != "environment"));
+      CHECK(j.timings.size() == (plugin.kind == "light" ? 7 : 3));
       CHECK(j.verdicts.size() > 4);
     }
 }
