@@ -31,6 +31,14 @@ void forCameraEvents(const CameraCases& cases, const Effort& effort, const F& f)
     }
 }
 
+// camera_density.cpp
+struct CameraDensityFindings {
+  Finding distribution;  ///< uniform film points send rays where pdf() says: chi-square
+  Finding mass;          ///< pdf() integrates to 1 - P(nullopt)
+};
+/// Of each lens point by itself; passes over cameras without a density.
+CameraDensityFindings cameraRaysFollowPdf(const CameraCases& cases, const Effort& effort);
+
 // camera_tests.cpp
 /// Per unit of film and of lens coordinate.
 Finding cameraRaysAreDifferentiated(const CameraCases& cases, const Effort& effort);

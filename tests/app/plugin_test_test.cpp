@@ -55,9 +55,10 @@ TEST_CASE("plugin test: reports of a light and a camera", "[app][plugin]") {
     return r.out;
   };
   const std::string sky = report("/light_environment.so");
-  for (const char* file : {"density.png", "derivative.png", "flux.png", "emission.png"}) {
-    CHECK(looksLikePicture(folder / ("report/" + std::string(file))));
-    CHECK_THAT(sky, containsText("\n" + std::string(file) + ": "));
+  for (const char* name : {"density", "derivative", "flux", "emission"}) {
+    const std::string file = std::string(name) + ".png";
+    CHECK(looksLikePicture(folder / "report" + ("/" + file)));
+    CHECK_THAT(sky, containsText(file + ": "));
   }
   CHECK_THAT(sky, containsText("left at their defaults, of environment: color_space (text)"));
   const std::string lens = report("/camera_thin_lens.so");

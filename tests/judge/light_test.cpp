@@ -56,6 +56,8 @@ TEST_CASE("judge: cameras that are wrong", "[judge][camera]") {
   checkBlamed(judgedCamera<WrongUnits>("panorama"), "sampleDerivatives()");
   checkBlamed(judgedCamera<NanWeight>("thin_lens"), "sample().weight");
   checkBlamed(judgedCamera<WrongCameraPdf>("pinhole"), "pdf()");
+  checkBlamed(judgedCamera<WideRays>("pinhole"), "sample()");
+  checkBlamed(judgedCamera<PdfOfEverything>("pinhole"), "pdf()");
 }
 
 TEST_CASE("judge: kinds without tests of their own", "[judge]") {
