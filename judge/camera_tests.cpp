@@ -90,7 +90,12 @@ Finding cameraAreaIsInverseDensity(const CameraCases& cases, const Effort& effor
 Finding cameraIsNeverNan(const CameraCases& cases, const Effort& effort) {
   Finding f{"nothing is infinite, negative or not a number", "all"};
   forCameraEvents(cases, effort, [&](const CameraCase& c, CameraNumbers, Random& r) {
-    const Vec2 film = harshPair(r), lens = harshPair(r);
+    const auto end = [&] {
+      const Real x = harsh(r);
+      return x == kOneMinusEpsilon ? Real(1) : x;  // the film's far edge belongs to it
+    };
+    const Real x = end(), y = end();
+    const Vec2 film = {x, y}, lens = harshPair(r);
     const CameraNumbers n = {film, lens, std::pow(Real(10), r.number(-2, 2))};
     const auto broken = brokenPromise(*c.camera, n);
     f.worst.see(broken ? HUGE_VAL : 0, [&] {

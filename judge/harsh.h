@@ -18,6 +18,8 @@ inline Real harsh(Random& r) {
       return kOneMinusEpsilon;
     case 2:
       return Real(0.5);
+    case 3:
+      return Real(1e-7);
     default:
       return r.number();
   }

@@ -29,10 +29,13 @@ std::optional<Broken> brokenPromise(const Light& light, Vec3 from, Vec2 u) {
   const auto s = light.sample(from, u);
   if (!s) return std::nullopt;
   if (!isUnit(s->hit.toLight)) return Broken{"sample().hit", "toLight is no unit vector"};
+  if (!(s->hit.from == from)) return Broken{"sample().hit", "hit.from is not where it was asked"};
   if (!(s->hit.distance > 0)) return Broken{"sample().hit", "the distance is not positive"};
   if (!isColour(s->radiance)) return Broken{"sample().radiance", "the radiance is no colour"};
   if (!(s->pdf > 0) || !std::isfinite(s->pdf))
     return Broken{"sample().pdf", "the sample's pdf is not positive"};
+  if (light.isDelta() && !(s->pdf == 1 && light.pdf(s->hit) == 0))
+    return Broken{"pdf()", "a delta light's pdf is not 1 of a sample, 0 of a hit"};
   if (!isDensity(light.pdf(s->hit))) return Broken{"pdf()", "pdf() is no density"};
   if (!isColour(light.eval(s->hit))) return Broken{"eval()", "eval() is no colour"};
   const LightJacobian j = light.sampleDerivatives(from, u);
