@@ -60,23 +60,32 @@ std::string reportText(const Plugin& plugin, const TestRequest& request,
   return text;
 }
 
-void writeReport(const std::string& folder, const Plugin& plugin, const std::string& text,
-                 const judge::Effort& effort) {
+std::string legends(const std::vector<judge::Picture>& pictures) {
+  std::string text;
+  for (const judge::Picture& p : pictures) text += fmt::format("\n{}: {}\n", p.file, p.legend);
+  return text;
+}
+
+void writeReport(const std::string& folder, const std::string& text,
+                 const std::vector<judge::Picture>& pictures) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   std::ofstream file(fs::path(folder) / "report.txt");
   if (failed || !(file << text << std::flush))
     throw Failure(kMachineFailed, fmt::format("cannot write into '{}'", folder));
   std::string error;
-  if (!judge::writePictures(plugin, effort, folder, error)) throw Failure(kMachineFailed, error);
+  if (!judge::writePictures(pictures, folder, error)) throw Failure(kMachineFailed, error);
 }
 
 int runTest(const TestRequest& request) {
   const Plugin plugin = opened(request.file);
   const judge::Judgement judgement = judge::judgePlugin(plugin, request.effort);
-  const std::string text = reportText(plugin, request, judgement);
+  std::string text = reportText(plugin, request, judgement);
+  std::vector<judge::Picture> pictures;
+  if (!request.report.empty()) pictures = judge::picturesOf(plugin, request.effort);
+  text += legends(pictures);
   std::cout << text << std::flush;
-  if (!request.report.empty()) writeReport(request.report, plugin, text, request.effort);
+  if (!request.report.empty()) writeReport(request.report, text, pictures);
   return judgement.passed() ? int(kFine) : kPluginWrong;
 }
 

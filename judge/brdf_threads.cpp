@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same question has the same answer: asked again, in another order, by many threads at once.
-#include <chrono>
-
 #include "judge/brdf_tests.h"
 #include "judge/same_answers.h"
+#include "judge/timing.h"
 
 namespace vestige::judge {
 namespace {
@@ -62,22 +61,6 @@ std::vector<Question> questions(const BrdfCases& cases, int each, unsigned seed)
   return list;
 }
 
-/// What a call takes, over all questions.
-template <class Call>
-double nanoseconds(const std::vector<Question>& list, const Call& call) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  int calls = 0;
-  Real sum = 0;  // so that nothing is optimised away
-  do {
-    for (const Question& q : list) sum += call(*q.brdf->brdf, q);
-    calls += int(list.size());
-  } while (Clock::now() - start < std::chrono::milliseconds(10));
-  const volatile Real keep = sum;
-  (void)keep;
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / calls;
-}
-
 }  // namespace
 
 Finding answersStayTheSame(const BrdfCases& cases, const Effort& effort) {
@@ -91,23 +74,22 @@ Finding answersStayTheSame(const BrdfCases& cases, const Effort& effort) {
 
 std::vector<Timing> timings(const BrdfCases& cases) {
   const std::vector<Question> list = questions(cases, 100, 1);
-  return {
-      {"sample()", nanoseconds(list,
-                               [](const Brdf& b, const Question& q) {
-                                 const auto s = b.sample(q.at, q.numbers);
-                                 return s ? s->pdf : 0;
-                               })},
-      {"eval()", nanoseconds(list, [](const Brdf& b,
-                                      const Question& q) { return b.eval(q.at, q.toNext).g; })},
-      {"pdf()",
-       nanoseconds(list, [](const Brdf& b, const Question& q) { return b.pdf(q.at, q.toNext); })},
-      {"sampleDerivatives()", nanoseconds(list,
-                                          [](const Brdf& b, const Question& q) {
-                                            return b.sampleDerivatives(q.at, q.numbers).du.c[0].x;
-                                          })},
-      {"logGradient()", nanoseconds(list, [](const Brdf& b, const Question& q) {
-         return b.logGradient(q.at, q.toNext).dNext.x;
-       })}};
+  const auto taken = [&](const char* method, const auto& call) {
+    return Timing{method,
+                  nanoseconds(list, [&](const Question& q) { return call(*q.brdf->brdf, q); })};
+  };
+  using Q = const Question&;
+  return {taken("sample()",
+                [](const Brdf& b, Q q) {
+                  const auto s = b.sample(q.at, q.numbers);
+                  return s ? s->pdf : 0;
+                }),
+          taken("eval()", [](const Brdf& b, Q q) { return b.eval(q.at, q.toNext).g; }),
+          taken("pdf()", [](const Brdf& b, Q q) { return b.pdf(q.at, q.toNext); }),
+          taken("sampleDerivatives()",
+                [](const Brdf& b, Q q) { return b.sampleDerivatives(q.at, q.numbers).du.c[0].x; }),
+          taken("logGradient()",
+                [](const Brdf& b, Q q) { return b.logGradient(q.at, q.toNext).dNext.x; })};
 }
 
 }  // namespace vestige::judge

@@ -18,6 +18,8 @@ inline Real harsh(Random& r) {
       return kOneMinusEpsilon;
     case 2:
       return Real(0.5);
+    case 3:
+      return Real(1e-7);
     default:
       return r.number();
   }
@@ -76,11 +78,12 @@ inline std::string textOfSettings(const Settings& settings) {
   for (const auto& [name, value] : settings) {
     text << " " << name << " ";
     if (value.kind == Value::Kind::text) text << value.text;
+    if (value.kind == Value::Kind::block) text << "{ " << value.block->plugin << " }";
     const int size = value.kind == Value::Kind::number   ? 1
                      : value.kind == Value::Kind::colour ? 3
-                                                         : value.size;
-    for (int i = 0; i < size && value.kind != Value::Kind::text; ++i)
-      text << (i ? "," : "") << value.v[i];
+                     : value.kind == Value::Kind::vector ? value.size
+                                                         : 0;
+    for (int i = 0; i < size; ++i) text << (i ? "," : "") << value.v[i];
   }
   return text.str();
 }

@@ -7,6 +7,8 @@
 
 #include <set>
 
+#include "judge/plain.h"
+
 namespace vestige::judge {
 namespace {
 
@@ -76,21 +78,53 @@ void dropDifferences(Judgement& j, std::uint32_t lacks) {
     j.unchecked = "it leaves derivatives to the engine's finite differences: those were not judged";
 }
 
+void addSentence(std::string& text, const std::string& more) {
+  text += (text.empty() || more.empty() ? "" : "\n") + more;
+}
+
+/// Parameters that were not tried, for the user; "": none.
+std::string leftAlone(const Plugin& plugin, const std::string& rows) {
+  return rows.empty() ? "" : "left at their defaults, of " + plugin.name + ": " + rows;
+}
+
+/// A BRDF is judged by its inputs.
+std::string paramsOf(const Schema& schema) {
+  std::string names;
+  for (const Parameter& row : schema.params) names += (names.empty() ? "" : ", ") + row.name;
+  return names;
+}
+
+template <class Cases>
+std::string noCases(const Cases& cases) {
+  return cases.empty() ? "it refused all parameters that were tried: no method was judged" : "";
+}
+
+void judgeByKind(const Plugin& plugin, const Effort& effort, Judgement& j) {
+  const std::string untried = leftAlone(plugin, rowsLeftAlone(*plugin.schema));
+  if (plugin.kind == "brdf") {
+    j = judgeBrdf(brdfCases(plugin, 4, effort.seed), plugin.schema, effort);
+    dropDifferences(j, plugin.entry->lacks);
+    addSentence(j.unchecked, leftAlone(plugin, paramsOf(*plugin.schema)));
+  } else if (plugin.kind == "light") {
+    const LightCases cases = lightCases(plugin, 6, effort.seed);
+    j = judgeLight(cases, effort);
+    addSentence(j.unchecked, noCases(cases)), addSentence(j.unchecked, untried);
+  } else if (plugin.kind == "camera") {
+    const CameraCases cases = cameraCases(plugin, 6, effort.seed);
+    j = judgeCamera(cases, effort);
+    addSentence(j.unchecked, noCases(cases)), addSentence(j.unchecked, untried);
+  } else {
+    j.unchecked = "there are no tests for the methods of a " + plugin.kind +
+                  ": only its schema and its creation were checked";
+  }
+}
+
 }  // namespace
 
 Judgement judgePlugin(const Plugin& plugin, const Effort& effort) {
   Judgement j;
   const auto first = {verdictOf(schemaIsSound(plugin)), verdictOf(isCreatedAsItsKind(plugin))};
-  if (plugin.kind == "brdf") {
-    j = judgeBrdf(brdfCases(plugin, 4, effort.seed), plugin.schema, effort);
-    dropDifferences(j, plugin.entry->lacks);
-  } else if (plugin.kind == "light")
-    j = judgeLight(lightCases(plugin, 6, effort.seed), effort);
-  else if (plugin.kind == "camera")
-    j = judgeCamera(cameraCases(plugin, 6, effort.seed), effort);
-  else
-    j.unchecked = "there are no tests for the methods of a " + plugin.kind +
-                  ": only its schema and its creation were checked";
+  judgeByKind(plugin, effort, j);
   j.verdicts.insert(j.verdicts.begin(), first.begin(), first.end());
   return j;
 }

@@ -37,6 +37,7 @@ Judgement judgeLight(const LightCases& cases, const Effort& e) {
                 verdictOf(flux.power, power),
                 verdictOf(flux.arriving, arriving),
                 verdictOf(emissionIsTheDerivative(cases, e))};
+  j.timings = lightTimings(cases);
   return j;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "judge/light_tests.h"
+#include "judge/light_maps.h"
 #include "judge/ray_differences.h"
 
 namespace vestige::judge {
@@ -9,17 +9,6 @@ namespace {
 bool isSmoothAt(Vec2 u) {
   return differsSmoothly(u, Real(0.025)) &&
          std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1)) < Real(0.85);
-}
-Vec2 axis2(int k) { return k == 0 ? Vec2{1, 0} : Vec2{0, 1}; }
-Vec3 axis3(int k) {
-  Vec3 a;
-  a[k] = 1;
-  return a;
-}
-
-std::optional<Vec3> toLight(const Light& light, Vec3 from, Vec2 u) {
-  const auto s = light.sample(from, u);
-  return s ? std::optional(s->hit.toLight) : std::nullopt;
 }
 
 /// Log of the radiance, and of cos / distance^2 where a point of the light was drawn by area.
@@ -116,26 +105,8 @@ Finding emissionIsTheDerivative(const LightCases& cases, const Effort& effort) {
       return e;
     };
     for (int k = 0; k < 4; ++k) {
-      const auto moved = [&](double h) {
-        EmissionNumbers v = u;
-        (k < 2 ? v.point : v.direction) = (k < 2 ? u.point : u.direction) + Real(h) * axis2(k % 2);
-        return c.light->emit(v);
-      };
-      const auto direction = [&](double h) -> std::optional<Vec3> {
-        const auto q = moved(h);
-        return q ? std::optional(q->direction) : std::nullopt;
-      };
-      // A disk that turns with the direction is free of spin in the derivative: the frame's own is
-      // taken out.
-      const auto origin = [&](double h) -> std::optional<Vec3> {
-        const auto q = moved(h);
-        if (!q) return std::nullopt;
-        if (k < 2 || !c.light->isInfinite()) return q->origin;
-        const Vec3 centre = kLightScene.centre();
-        const Frame there = Frame::around(q->direction), here = Frame::around(p->direction);
-        const Vec3 local = here.toWorld(there.toLocal(q->origin - centre));
-        return centre + transport(p->direction, q->direction, local);
-      };
+      const auto direction = [&](double h) { return movedDirection(*c.light, u, k, h); };
+      const auto origin = [&](double h) { return movedOrigin(*c.light, u, p->direction, k, h); };
       const std::string number = std::to_string(k);
       seeDifference(f, direction, j.dDirection[k], 1, "dDirection[" + number + "]", describe);
       seeDifference(f, origin, j.dOrigin[k], 1 + sizeOf(p->origin), "dOrigin[" + number + "]",

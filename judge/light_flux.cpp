@@ -3,7 +3,7 @@
 // every particle has to cross.
 #include <vestige/sampling.h>
 
-#include "judge/light_tests.h"
+#include "judge/light_sphere.h"
 
 namespace vestige::judge {
 namespace {
@@ -16,33 +16,11 @@ struct Mean {
   double error() const { return std::sqrt(std::max(0.0, squares / n - value() * value()) / n); }
 };
 
-/// Encloses a finite light; lies in the scene that an infinite one shines on.
-struct Sphere {
-  Vec3 centre;
-  Real radius;
-};
-Sphere sphereFor(const Light& light, Random& r) {
-  if (light.isInfinite()) return {kLightScene.centre(), length(kLightScene.size()) / 2};
-  Bounds origins;
-  for (int i = 0; i < 256; ++i)
-    if (const auto p = light.emit({r.pair(), r.pair()})) origins.add(p->origin);
-  if (origins.isEmpty()) return {{}, 0};
-  return {origins.centre(), length(origins.size()) + 1};
-}
-
 std::size_t octant(Vec3 d) { return (d.x > 0 ? 1 : 0) + (d.y > 0 ? 2 : 0) + (d.z > 0 ? 4 : 0); }
-
-/// Where a particle crosses the sphere towards the side that the light does not stand on.
-std::optional<Vec3> crossing(const Particle& p, const Sphere& s, bool isInfinite) {
-  const Vec3 o = p.origin - s.centre;
-  const Real b = dot(o, p.direction), q = sqr(b) - lengthSquared(o) + sqr(s.radius);
-  if (q < 0) return std::nullopt;
-  return o + (-b + (isInfinite ? -1 : 1) * std::sqrt(q)) * p.direction;
-}
 
 using Octants = std::array<Mean, 8>;
 
-Octants emitted(const Light& light, const Sphere& s, int n, Random& r, Mean& all) {
+Octants emitted(const Light& light, const LightSphere& s, int n, Random& r, Mean& all) {
   Octants parts;
   for (int i = 0; i < n; ++i) {
     const auto p = light.emit({r.pair(), r.pair()});
@@ -54,15 +32,12 @@ Octants emitted(const Light& light, const Sphere& s, int n, Random& r, Mean& all
   return parts;
 }
 
-Octants arriving(const Light& light, const Sphere& s, int n, Random& r, Mean& all) {
+Octants arriving(const Light& light, const LightSphere& s, int n, Random& r, Mean& all) {
   Octants parts;
   const double area = 4 * M_PI * double(sqr(s.radius));
   for (int i = 0; i < n; ++i) {
     const Vec3 d = uniformCap(r.pair(), -1).d, normal = light.isInfinite() ? d : -d;
-    const auto l = light.sample(s.centre + s.radius * d, r.pair());
-    const double flux = l ? area * double(luminance(l->radiance) *
-                                          std::max(Real(0), dot(l->hit.toLight, normal)) / l->pdf)
-                          : 0;
+    const double flux = area * irradiance(light, s.centre + s.radius * d, normal, r.pair());
     all.add(flux);
     for (std::size_t k = 0; k < 8; ++k) parts[k].add(octant(d) == k ? flux : 0);
   }
@@ -77,7 +52,7 @@ FluxFindings fluxAgrees(const LightCases& cases, const Effort& effort) {
                  true};
   Random r(effort.seed + 4);
   for (const LightCase& c : cases) {
-    const Sphere s = sphereFor(*c.light, r);
+    const LightSphere s = sphereFor(*c.light, r);
     if (!(s.radius > 0)) continue;
     Mean out, in;
     const Octants a = emitted(*c.light, s, effort.samples, r, out);

@@ -21,7 +21,7 @@ using LightCases = std::vector<LightCase>;
 
 inline const Bounds kLightScene = {{-1, -2, -1}, {2, 1, 1}};
 
-/// Random values for every row but files and blocks, which are left out.
+/// Random values for every row that plainValue() has one for.
 LightCases lightCases(const Plugin& plugin, int sets, unsigned seed);
 
 Event lightEvent(const LightCase& c, Vec3 from, Vec2 u, const std::string& what);
@@ -60,6 +60,9 @@ FluxFindings fluxAgrees(const LightCases& cases, const Effort& effort);
 
 // light_fuzz.cpp
 Finding lightIsNeverNan(const LightCases& cases, const Effort& effort);
+
+// light_threads.cpp
 Finding lightAnswersStayTheSame(const LightCases& cases, const Effort& effort);
+std::vector<Timing> lightTimings(const LightCases& cases);
 
 }  // namespace vestige::judge

@@ -20,13 +20,18 @@ namespace vestige::judge {
 using Settings = std::map<std::string, Value>;
 
 /// 8 x 4 texels, smooth and nowhere black: a sky that has a brightest place, towards u = 0.25,
-/// v = 0.8. Constant inside a texel, so that sums over texels are exact.
+/// v = 0.8. Bilinear, as host.h has it.
 class SmallTexture final : public Texture {
  public:
+  explicit SmallTexture(Wrap wrapU = Wrap::repeat, Wrap wrapV = Wrap::repeat)
+      : wrapU_(wrapU), wrapV_(wrapV) {}
   Rgba lookup(Vec2 uv, const Vec2*) const noexcept override {
-    const Real u = uv.x - std::floor(uv.x), v = std::clamp(uv.y, Real(0), kOneMinusEpsilon);
-    return texel(std::min(int(u * width()), width() - 1),
-                 std::min(int(v * height()), height() - 1));
+    const Real x = uv.x * width() - Real(0.5), y = uv.y * height() - Real(0.5);
+    const int i = int(std::floor(x)), j = int(std::floor(y));
+    const Real a = x - i, b = y - j;
+    return {(1 - b) * ((1 - a) * around(i, j) + a * around(i + 1, j)) +
+                b * ((1 - a) * around(i, j + 1) + a * around(i + 1, j + 1)),
+            1};
   }
   Rgba texel(int x, int y) const noexcept override {
     const Real u = (x + Real(0.5)) / width(), v = (y + Real(0.5)) / height();
@@ -42,14 +47,26 @@ class SmallTexture final : public Texture {
       for (int x = 0; x < width(); ++x) sum += texel(x, y).colour;
     return {sum / Real(width() * height()), 1};
   }
+
+ private:
+  static int wrapped(int i, int n, Wrap wrap) noexcept {
+    if (wrap == Wrap::clamp) return std::clamp(i, 0, n - 1);
+    const int turn = wrap == Wrap::mirror ? 2 * n : n, k = (i % turn + turn) % turn;
+    return k < n ? k : turn - 1 - k;
+  }
+  Rgb around(int x, int y) const noexcept {
+    return texel(wrapped(x, width(), wrapU_), wrapped(y, height(), wrapV_)).colour;
+  }
+
+  Wrap wrapU_, wrapV_;
 };
 
 /// Every file is found, every image is the small texture, warnings are kept.
 class NullHost final : public Host {
  public:
   std::string find(const std::string& file, Span, std::string&) override { return file; }
-  std::shared_ptr<const Texture> texture(const TextureRequest&, std::string&) override {
-    return std::make_shared<SmallTexture>();
+  std::shared_ptr<const Texture> texture(const TextureRequest& request, std::string&) override {
+    return std::make_shared<SmallTexture>(request.wrapU, request.wrapV);
   }
   void warn(Span, const std::string& message) override { warnings.push_back(message); }
   std::vector<std::string> warnings;

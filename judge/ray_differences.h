@@ -17,7 +17,23 @@ inline std::string toldVectors(const std::string& what, Vec3 found, Vec3 expecte
   return text.str();
 }
 
-/// `found` against differences of a map from a Real to an optional Vec3 of size `noise`.
+/// What a difference gave in place of what was found, and the error in units of what is allowed.
+struct Compared {
+  Vec3 seen;
+  double error;
+};
+
+/// `found` against differences of a map from a Real to an optional Vec3 of size `noise`; nullopt
+/// where they say nothing.
+template <class Map>
+std::optional<Compared> compared(const Map& map, Vec3 found, double noise) {
+  const double allowed = kRayTolerance * std::max({1.0, noise, sizeOf(found)});
+  const auto seen = trustedDifference(map, kRayStep, allowed, std::max(noise, 0.1));
+  if (!seen) return std::nullopt;
+  return Compared{*seen, sizeOf(found - *seen) / allowed};
+}
+
+/// The same as an event of a finding.
 template <class Map, class Describe>
 void seeDifference(Finding& f, const Map& map, Vec3 found, double noise, const std::string& what,
                    const Describe& describe) {
@@ -26,12 +42,10 @@ void seeDifference(Finding& f, const Map& map, Vec3 found, double noise, const s
     return;
   }
   ++f.asked;
-  const double rough = std::max({1.0, noise, sizeOf(found)});
-  const auto seen = trustedDifference(map, kRayStep, kRayTolerance * rough, std::max(noise, 0.1));
-  if (!seen) return;
+  const auto c = compared(map, found, noise);
+  if (!c) return;
   ++f.judged;
-  f.worst.see(sizeOf(found - *seen) / (kRayTolerance * rough),
-              [&] { return describe(toldVectors(what, found, *seen)); });
+  f.worst.see(c->error, [&] { return describe(toldVectors(what, found, c->seen)); });
 }
 
 }  // namespace vestige::judge

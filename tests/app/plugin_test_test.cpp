@@ -44,6 +44,28 @@ TEST_CASE("plugin test: a wrong density is named, with a report", "[app][plugin]
   CHECK(text == r.out);
 }
 
+TEST_CASE("plugin test: reports of a light and a camera", "[app][plugin]") {
+  const Folder folder;
+  const auto report = [&](const char* name) {
+    const Run r = vestige(
+        {"plugin", "test", kPlugins + name, "--samples", "1024", "--report", folder / "report"});
+    INFO(r.err);
+    CHECK(r.exit == 0);
+    CHECK_THAT(r.out, containsText("nanoseconds a call:  sample() "));
+    return r.out;
+  };
+  const std::string sky = report("/light_environment.so");
+  for (const char* name : {"density", "derivative", "flux", "emission"}) {
+    const std::string file = std::string(name) + ".png";
+    CHECK(looksLikePicture(folder / "report" + ("/" + file)));
+    CHECK_THAT(sky, containsText(file + ": "));
+  }
+  CHECK_THAT(sky, containsText("left at their defaults, of environment: color_space (text)"));
+  const std::string lens = report("/camera_thin_lens.so");
+  CHECK_THAT(lens, containsText("\ndensity.png: camera thin_lens { aperture "));
+  CHECK_THAT(lens, containsText("aspect 4:3"));
+}
+
 TEST_CASE("plugin test: what cannot be loaded", "[app][plugin]") {
   const Run missing = vestige({"plugin", "test", "nowhere.so"});
   CHECK(missing.exit == 3);

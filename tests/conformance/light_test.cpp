@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights: sampled directions against their density, radiance against closed forms, particles
-// against sample(), derivatives against differences.
+// Lights: what the judge asks of each (judge/light_tests.h), of lights that are seen well; and what
+// it cannot know: closed forms, pictures, refusals.
 #include <vestige/light.h>
 
 #include <functional>
 
-#include "support/catch.h"
-#include "support/judge.h"
+#include "judge/light_tests.h"
+#include "support/findings.h"
 #include "support/lights.h"
 
 namespace vestige::test {
 namespace {
+
+constexpr judge::Effort kEffort = {.samples = 1 << 16, .falseAlarm = 1e-3};
+
+/// The lights of this suite for the judge.
+judge::LightCases judgedCases() {
+  judge::LightCases list;
+  for (const LightCase& c : lightCases()) list.push_back({c.name, c.light});
+  return list;
+}
 
 /// Mean and its standard error.
 struct Estimate {
@@ -40,71 +49,34 @@ Estimate irradiance(const Light& light, Vec3 from, Vec3 normal, int n) {
   return e;
 }
 
-/// Where a ray meets the parallelogram of a light's geometry; the contract's pdf() needs a hit.
-LightHit hitOn(const TriangleMesh& mesh, Vec3 from, Vec3 toLight) {
-  const Vec3 a = mesh.positions[0], b = mesh.positions[1] - a, c = mesh.positions[3] - a;
-  const Vec3 across = cross(b, c);
-  const Real t = dot(a - from, across) / dot(toLight, across);
-  const Vec3 p = from + t * toLight, q = p - a;
-  const Vec2 uv = {dot(cross(q, c), across) / lengthSquared(across),
-                   dot(cross(b, q), across) / lengthSquared(across)};
-  const bool inside = t > 0 && uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1;
-  return {from, toLight, inside ? t : -1, p, normalize(across), uv};
-}
-
-LightHit hitOn(const Light& light, Vec3 from, Vec3 toLight) {
-  if (light.geometry()) return hitOn(*light.geometry(), from, toLight);
-  return {from, toLight, kInfinity, {}, {}, {}};
-}
-
 }  // namespace
 
-TEST_CASE("light sample and pdf: directions against their density", "[light]") {
-  Random random(6);
-  for (const LightCase& c : lightCases()) {
-    if (c.light->isDelta()) continue;
-    const Vec3 from = c.from;
-    std::vector<Vec3> drawn;
-    for (int i = 0; i < 100000; ++i)
-      if (const auto s = c.light->sample(from, random.pair()))
-        drawn.push_back(c.toImage * s->hit.toLight);
-    std::size_t next = 0;
-    const GridVerdict v = gridVerdict(
-        c.grid, c.fine, int(drawn.size()), [&] { return drawn[next++]; },
-        [&](Vec3 d) {
-          const LightHit hit = hitOn(*c.light, from, transpose(c.toImage) * d);
-          return hit.distance > 0 ? c.light->pdf(hit) : 0;
-        });
-    INFO(c.name);
-    CHECK(drawn.size() == 100000);
-    CHECK(v.mass == Approx(1).margin(3e-3));
-    CHECK(v.pValue > 1e-4);
-  }
+TEST_CASE("light: what the judge asks of all", "[light]") {
+  const judge::LightCases cases = judgedCases();
+  const judge::LightDensityFindings density = judge::lightSamplesFollowPdf(cases, kEffort);
+  check(density.distribution);
+  check(density.mass);
+  check(density.ownPdf);
+  check(density.ownRadiance);
+  check(judge::lightAreaIsInverseDensity(cases, kEffort));
+  check(judge::lightDuIsTheDerivative(cases, kEffort));
+  check(judge::lightFromIsTheDerivative(cases, kEffort));
+  check(judge::lightLogGradientIsTheDerivative(cases, kEffort));
+  check(judge::emissionIsTheDerivative(cases, kEffort));
+  const judge::FluxFindings flux = judge::fluxAgrees(cases, kEffort);
+  check(flux.power);
+  check(flux.arriving);
+  check(judge::lightIsNeverNan(cases, kEffort));
+  check(judge::lightAnswersStayTheSame(cases, kEffort));
 }
 
-TEST_CASE("light sample agrees with pdf and eval", "[light]") {
-  Random random(7);
+TEST_CASE("light sample: where a light is seen well, all numbers find it", "[light]") {
+  Random random(6);
   for (const LightCase& c : lightCases()) {
     INFO(c.name);
-    Worst density, radiance;
-    bool unit = true;
-    for (int i = 0; i < 2000; ++i) {
-      const Vec3 from = c.from + random.point(Real(-0.1), Real(0.1));
-      const auto s = c.light->sample(from, random.pair());
-      if (!s) continue;
-      unit = unit && std::abs(length(s->hit.toLight) - 1) < Real(1e-5) && s->hit.from == from;
-      if (c.light->isDelta()) {
-        unit = unit && s->pdf == 1 && c.light->pdf(s->hit) == 0 && isBlack(c.light->eval(s->hit));
-        continue;
-      }
-      density.add(c.light->pdf(s->hit) / s->pdf, 1);
-      const LightHit hit = hitOn(*c.light, from, s->hit.toLight);  // as a ray finds it
-      if (hit.distance > 0) density.add(Real(0.1) * c.light->pdf(hit) / s->pdf, Real(0.1));
-      radiance.add(luminance(c.light->eval(s->hit)), luminance(s->radiance));
-    }
-    CHECK(unit);
-    CHECK(density.value < Real(1e-4));
-    CHECK(radiance.value < Real(1e-6));
+    int found = 0;
+    for (int i = 0; i < 10000; ++i) found += c.light->sample(c.from, random.pair()).has_value();
+    CHECK(found == 10000);
   }
 }
 
@@ -289,11 +261,11 @@ TEST_CASE("light environment: images that are no radiance", "[light][environment
   }
 }
 
-TEST_CASE("light emit: mean power, and what arrives", "[light][emission]") {
+TEST_CASE("light emit: what arrives at a small square", "[light][emission]") {
   for (const LightCase& c : lightCases()) {
     INFO(c.name);
     Random random(11);
-    Estimate power, arriving;
+    Estimate arriving;
     // A square of 0.5 x 0.5 around `from`, facing the light.
     const Frame f = Frame::around(c.receiver);
     Estimate expected;
@@ -308,7 +280,6 @@ TEST_CASE("light emit: mean power, and what arrives", "[light][emission]") {
     const int n = 400000;
     for (int i = 0; i < n; ++i) {
       const auto p = c.light->emit({random.pair(), random.pair()});
-      power.add(p ? double(luminance(p->power)) : 0);
       const Real down = p ? -dot(p->direction, f.n) : 0;
       const Real t = p ? dot(p->origin - c.from, f.n) / down : -1;
       const Vec3 at =
@@ -316,10 +287,6 @@ TEST_CASE("light emit: mean power, and what arrives", "[light][emission]") {
       const bool met = std::abs(at.x) < Real(0.25) && std::abs(at.y) < Real(0.25);
       arriving.add(met ? double(luminance(p->power)) : 0);
     }
-    INFO("power " << power.mean() << " +- " << power.error() << " of "
-                  << luminance(c.light->power()));
-    CHECK(std::abs(power.mean() - double(luminance(c.light->power()))) <=
-          5 * power.error() + (c.powerTolerance + 1e-5) * power.mean());
     const double error = std::hypot(arriving.error(), expected.error());
     INFO("arriving " << arriving.mean() << ", expected " << expected.mean() << " +- " << error);
     CHECK(error < 0.05 * expected.mean());
@@ -374,113 +341,6 @@ TEST_CASE("light emission of an area: cosine about its normal, from its own side
   checkWithin(square, 0.5, 2e-3);
 }
 
-TEST_CASE("light derivatives: sampled directions", "[light][derivatives]") {
-  Random random(13);
-  for (const LightCase& c : lightCases()) {
-    Worst byNumber, byPoint, areas;
-    int tried = 0;
-    for (int i = 0; i < 4000; ++i) {
-      const Vec2 u = random.pair();
-      const Vec3 from = c.from + random.point(Real(-0.2), Real(0.2));
-      const auto s = c.light->sample(from, u);
-      if (!s || !c.smooth(u)) continue;
-      ++tried;
-      const LightJacobian j = c.light->sampleDerivatives(from, u);
-      const auto moved = [&](Vec3 dFrom, Vec2 du) {
-        return c.light->sample(from + dFrom, u + du)->hit.toLight;
-      };
-      byNumber.add(j.du.c[0], difference([&](Real h) { return moved({}, {h, 0}); }));
-      byNumber.add(j.du.c[1], difference([&](Real h) { return moved({}, {0, h}); }));
-      for (int k = 0; k < 3; ++k) {
-        Vec3 axis;
-        axis[k] = 1;
-        byPoint.add(j.dFrom * axis, difference([&](Real h) { return moved(h * axis, {}); }));
-      }
-      if (!c.light->isDelta()) areas.add(length(cross(j.du.c[0], j.du.c[1])) * s->pdf, 1);
-    }
-    INFO(c.name << ", " << tried << " events");
-    CHECK(tried > 100);
-    CHECK(byNumber.value < kTolerance);
-    CHECK(byPoint.value < kTolerance);
-    CHECK(areas.value < (sizeof(Real) == 8 ? 1e-9 : 1e-3));
-  }
-}
-
-TEST_CASE("light derivatives: relative change of the contribution", "[light][derivatives]") {
-  Random random(14);
-  for (const LightCase& c : lightCases()) {
-    Worst byNumber, byPoint;
-    for (int i = 0; i < 4000; ++i) {
-      const Vec2 u = random.pair();
-      const Vec3 from = c.from + random.point(Real(-0.2), Real(0.2));
-      if (!c.light->sample(from, u) || !c.smooth(u)) continue;
-      // Radiance, and cos / distance^2 where a point was drawn by area.
-      const auto factor = [&](Vec3 at, Vec2 v) {
-        const auto s = c.light->sample(at, v);
-        const Real measure = c.light->geometry() ? std::abs(dot(s->hit.normal, s->hit.toLight)) /
-                                                       sqr(s->hit.distance)
-                                                 : 1;
-        return luminance(s->radiance) * measure;
-      };
-      const LightLogGradient g = c.light->logGradient(from, u);
-      const Real here = factor(from, u);
-      for (int k = 0; k < 2; ++k) {
-        const Vec2 axis = k == 0 ? Vec2{1, 0} : Vec2{0, 1};
-        const auto moved = [&](Real h) { return factor(from, u + h * axis); };
-        byNumber.add(k == 0 ? g.du.x : g.du.y, difference(moved) / here);
-      }
-      for (int k = 0; k < 3; ++k) {
-        Vec3 axis;
-        axis[k] = 1;
-        const auto moved = [&](Real h) { return factor(from + h * axis, u); };
-        byPoint.add(g.dFrom[k], difference(moved) / here);
-      }
-    }
-    INFO(c.name);
-    CHECK(byNumber.value < kTolerance);
-    CHECK(byPoint.value < kTolerance);
-  }
-}
-
-TEST_CASE("light derivatives: particles", "[light][emission][derivatives]") {
-  Random random(15);
-  for (const LightCase& c : lightCases()) {
-    Worst origins, directions;
-    for (int i = 0; i < 4000; ++i) {
-      const EmissionNumbers u = {random.pair(), random.pair()};
-      if (!c.light->emit(u) || !c.smoothEmission(u.direction) || !differsSmoothly(u.point))
-        continue;
-      const RayJacobian j = c.light->emissionDerivatives(u);
-      for (int k = 0; k < 4; ++k) {
-        const auto moved = [&](Real h) {
-          EmissionNumbers v = u;
-          (k == 0 ? v.point.x : k == 1 ? v.point.y : k == 2 ? v.direction.x : v.direction.y) += h;
-          return *c.light->emit(v);
-        };
-
-        const Vec3 d = moved(0).direction;
-        if (std::abs(d.z) < Real(0.2)) continue;  // Frame::around jumps at z = 0
-        const auto disk = [&](Real h) { return moved(h).origin; };
-        Vec3 seen = difference(disk);
-        if (k > 1 && c.light->isInfinite()) {
-          // The frame that sample routines build spins about the direction; derivatives are free
-          // of it. What the spin does to the disk is taken out.
-          const Vec3 s = Frame::around(d).s, t = cross(d, s);
-          const Real spin =
-              dot(t, difference([&](Real h) { return Frame::around(moved(h).direction).s; }));
-          const Vec3 fromCentre = moved(0).origin - c.centre;
-          seen -= spin * cross(d, fromCentre);
-        }
-        origins.add(j.dOrigin[k], seen);
-        directions.add(j.dDirection[k], difference([&](Real h) { return moved(h).direction; }));
-      }
-    }
-    INFO(c.name);
-    CHECK(origins.value < kTolerance);
-    CHECK(directions.value < kTolerance);
-  }
-}
-
 TEST_CASE("light area: its surface", "[light][area]") {
   const auto check = [](const Affine& toWorld, Vec3 shines) {
     const auto light = make<Light>(pluginNamed("light", "area"), downLight(), toWorld);
@@ -511,34 +371,6 @@ TEST_CASE("light area: its surface", "[light][area]") {
   Affine mirror;
   mirror.m[1][1] = -1;
   check(mirror, {0, 1, 0});
-}
-
-TEST_CASE("light numbers at the corners of the square stay finite", "[light]") {
-  const Real ends[] = {0, Real(0.5), Real(1e-7), kOneMinusEpsilon};
-  for (const LightCase& c : lightCases()) {
-    bool sane = true;
-    for (const Real x : ends)
-      for (const Real y : ends) {
-        const auto s = c.light->sample(c.from, {x, y});
-        sane = sane && (!s || (isFinite(s->hit.toLight) && isFinite(s->radiance) && s->pdf > 0 &&
-                               std::isfinite(s->pdf)));
-        const LightJacobian j = c.light->sampleDerivatives(c.from, {x, y});
-        const LightLogGradient g = c.light->logGradient(c.from, {x, y});
-        sane = sane && isFinite(j.du.c[0]) && isFinite(j.du.c[1]) && isFinite(g.dFrom) &&
-               std::isfinite(g.du.x + g.du.y);
-        for (const Real z : ends) {
-          const EmissionNumbers u = {{z, x}, {x, y}};
-          const auto p = c.light->emit(u);
-          const RayJacobian e = c.light->emissionDerivatives(u);
-          sane = sane && (!p || (isFinite(p->origin) && isFinite(p->power) &&
-                                 std::abs(length(p->direction) - 1) < Real(1e-5)));
-          for (int k = 0; k < 4; ++k)
-            sane = sane && isFinite(e.dOrigin[k]) && isFinite(e.dDirection[k]);
-        }
-      }
-    INFO(c.name);
-    CHECK(sane);
-  }
 }
 
 TEST_CASE("light parameters that make no sense are refused", "[light][errors]") {

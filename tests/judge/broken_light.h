@@ -129,4 +129,21 @@ struct WrongCameraPdf final : AsGoodCamera {
   }
 };
 
+/// Draws with its numbers changed; density and derivatives are as if they were not.
+struct WideRays final : AsGoodCamera {
+  using AsGoodCamera::AsGoodCamera;
+  std::optional<CameraSample> sample(CameraNumbers n) const noexcept override {
+    n.film.x = n.film.x * n.film.x;
+    return good->sample(n);
+  }
+};
+
+/// Right on the film, but not 0 beside it.
+struct PdfOfEverything final : AsGoodCamera {
+  using AsGoodCamera::AsGoodCamera;
+  Real pdf(Vec3 origin, Vec3 direction, Real aspect) const noexcept override {
+    return std::max(good->pdf(origin, direction, aspect), Real(0.05));
+  }
+};
+
 }  // namespace vestige::test

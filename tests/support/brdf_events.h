@@ -1,23 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The judge's findings as checks of Catch2.
+// Events of the BRDF suite, and the judge's findings of them as checks.
 #pragma once
 #include "judge/brdf_event.h"
-#include "judge/verdict.h"
 #include "support/brdf_cases.h"
-#include "support/catch.h"
-
-namespace vestige::test {
-
-inline void check(const WorstEvent& worst) {
-  INFO(worst.event);
-  CHECK(worst.events > 0);
-  CHECK(worst.error <= 1);
-}
-
-inline void check(const Finding& finding) {
-  INFO(finding.test);
-  check(finding.worst);
-  if (finding.asked > 0) CHECK(finding.judged > finding.asked / 3);
-}
-
-}  // namespace vestige::test
+#include "support/findings.h"

@@ -4,8 +4,8 @@
 //     radiant intensity = intensity picture(x, y),   (x, y) = where the direction meets the slide
 //
 // The slide stands one unit in front of the point, 2 tan(angle / 2) wide. Particles start evenly
-// over the slide, so with density 1 / (area cos^3 a) per steradian. The picture's own slope is left
-// out of logGradient(): a slide has edges, and a derivative there would say nothing.
+// over the slide, so with density 1 / (area cos^3 a) per steradian. logGradient() has the picture's
+// slope between two texels, but not the edges of the slide, where a derivative would say nothing.
 #include <vestige/light.h>
 #include <vestige/plugin.h>
 #include <vestige/words.h>
@@ -72,8 +72,15 @@ class Gobo final : public Light {
   }
 
   LightLogGradient logGradient(Vec3 from, Vec2) const noexcept override {
-    const Vec3 way = location_ - from;
-    return {{}, 2 / lengthSquared(way) * way};
+    const Vec3 way = location_ - from, d = frame_.toLocal(-way);
+    LightLogGradient g = {{}, 2 / lengthSquared(way) * way};
+    const Real here = luminance(intensity(d));
+    if (!(here > 0)) return g;
+    const Vec2 uv = onPicture(d);
+    const Vec3 du = Vec3{1, 0, -d.x / d.z} / (2 * halfWidth_ * d.z);
+    const Vec3 dv = Vec3{0, 1, -d.y / d.z} / (2 * halfHeight_ * d.z);
+    g.dFrom += frame_.toWorld((slope(uv, 0) * du + slope(uv, 1) * dv) / here);
+    return g;
   }
 
   std::optional<Particle> emit(EmissionNumbers u) const noexcept override {
@@ -111,14 +118,33 @@ class Gobo final : public Light {
   Vec3 onSlide(Vec2 u) const noexcept {
     return {halfWidth_ * (2 * u.x - 1), halfHeight_ * (2 * u.y - 1), 1};
   }
+  /// Where a direction of the lamp's own frame meets the picture, d.z > 0.
+  Vec2 onPicture(Vec3 d) const noexcept {
+    return {(d.x / d.z / halfWidth_ + 1) / 2, (d.y / d.z / halfHeight_ + 1) / 2};
+  }
+  Rgba lookup(Vec2 uv) const noexcept {
+    const Vec2 point[2] = {};
+    return slide_->lookup(uv, point);
+  }
   /// W/sr in a direction of the lamp's own frame; black beside the slide and behind the lamp.
   Rgb intensity(Vec3 d) const noexcept {
     if (!(d.z > 0)) return {};
-    const Vec2 uv = {(d.x / d.z / halfWidth_ + 1) / 2, (d.y / d.z / halfHeight_ + 1) / 2};
+    const Vec2 uv = onPicture(d);
     if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};
-    const Vec2 point[2] = {};
-    const Rgba c = slide_->lookup(uv, point);
+    const Rgba c = lookup(uv);
     return intensity_ * c.alpha * c.colour;
+  }
+  /// Of the intensity's luminance by u (axis 0) or v (1): between the centres of two texels a
+  /// lookup is straight in colour and in alpha.
+  Real slope(Vec2 uv, int axis) const noexcept {
+    const int n = axis == 0 ? slide_->width() : slide_->height();
+    const Real x = axis == 0 ? uv.x : uv.y;
+    const Real low = (std::floor(x * n - Real(0.5)) + Real(0.5)) / n, high = low + Real(1) / n;
+    const Rgba a = lookup(axis == 0 ? Vec2{low, uv.y} : Vec2{uv.x, low});
+    const Rgba b = lookup(axis == 0 ? Vec2{high, uv.y} : Vec2{uv.x, high});
+    const Rgba c = lookup(uv);
+    const Rgb rise = c.alpha * (b.colour - a.colour) + (b.alpha - a.alpha) * c.colour;
+    return luminance(intensity_ * rise) * n;
   }
 
   Vec3 location_;

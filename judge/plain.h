@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values that nobody would wonder at, for the rows of a light's or camera's schema.
+#pragma once
+#include "judge/differences.h"
+#include "judge/made.h"
+
+namespace vestige::judge {
+
+/// A random value; of a file any name, since NullHost finds each; of a pigment an image. Kind none:
+/// the row is left at its default (texts, and blocks of other kinds).
+Value plainValue(const Parameter& row, Random& r);
+
+/// All required rows, and most of the others.
+Settings plainSettings(const Schema& schema, Random& r);
+
+/// Defaults, but required rows, the first image and numbers that are 0 (a tilt) have values: what a
+/// picture is made with.
+Settings shownSettings(const Schema& schema, Random& r);
+
+/// The rows that plainValue() has nothing for, "color_space (text), ..."; "": none.
+std::string rowsLeftAlone(const Schema& schema);
+
+}  // namespace vestige::judge
