@@ -9,6 +9,7 @@ packages=(
   libopenimageio-dev libopencolorio-dev       # pictures and colours
   libassimp-dev                               # meshes
   libfmt-dev libcli11-dev nlohmann-json3-dev  # text, command line, JSON
+  libglfw3-dev libimgui-dev                   # the window
   catch2                                      # tests
 )
 build=${home:?}/build/release
@@ -69,7 +70,7 @@ install_packages() {
   elif [[ ! -f $build/build.ninja ]]; then
     say "there is no apt here. Please install, by the names this system has for them:"
     say "  a C++20 compiler, cmake >= 3.22, ninja, pkg-config, Embree 3 or 4, OpenImageIO >= 2.4,"
-    say "  OpenColorIO >= 2.1, Assimp >= 5.2, fmt, CLI11, nlohmann-json, Catch2 2 or 3"
+    say "  OpenColorIO >= 2.1, Assimp >= 5.2, fmt, CLI11, nlohmann-json, GLFW 3, Dear ImGui, Catch2 2 or 3"
     say "  (on Debian: ${packages[*]})"
     say "then run 'cmake --preset release' and this script again."
     exit 3

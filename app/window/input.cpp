@@ -22,6 +22,7 @@ constexpr std::size_t kMostUndo = 200;
 
 void Window::restart(int& counter) {
   ++counter;
+  if (asked_ < 0) asked_ = glfwGetTime();
   if (preview_) preview_->want(wish_);
   isDirty_ = true;
 }
@@ -145,8 +146,7 @@ void Window::walkByKeys(double seconds) {
 }
 
 void Window::onButton(int button, bool isDown, int mods) {
-  double x = 0, y = 0;
-  glfwGetCursorPos(window_, &x, &y);
+  const auto [x, y] = cursor();
   if (isDown) {
     button_ = button, isDragged_ = false;
     downX_ = lastX_ = x, downY_ = lastY_ = y;
@@ -168,13 +168,14 @@ void Window::onButton(int button, bool isDown, int mods) {
   }
   if (isRegion_ && wasDragged) {
     isRegion_ = false;
-    const auto clamped = [&](double wx, double wy) {
-      const double px = (wx - sheet_.left) / sheet_.zoom / std::max(1, sheet_.width);
-      const double py = (wy - sheet_.top) / sheet_.zoom / std::max(1, sheet_.height);
-      return std::pair{std::clamp(px, 0.0, 1.0), std::clamp(py, 0.0, 1.0)};
+    const auto share = [](double at, double corner, double size) {
+      return std::clamp((at - corner) / std::max(1.0, size), 0.0, 1.0);
     };
-    const auto [x0, y0] = clamped(std::min(x, downX_), std::min(y, downY_));
-    const auto [x1, y1] = clamped(std::max(x, downX_), std::max(y, downY_));
+    const double wide = sheet_.zoom * sheet_.width, high = sheet_.zoom * sheet_.height;
+    const double x0 = share(std::min(x, downX_), sheet_.left, wide),
+                 y0 = share(std::min(y, downY_), sheet_.top, high),
+                 x1 = share(std::max(x, downX_), sheet_.left, wide),
+                 y1 = share(std::max(y, downY_), sheet_.top, high);
     if (x1 > x0 && y1 > y0) {
       wish_.region = std::array<double, 4>{x0, y0, x1, y1};
       restart(wish_.picture);
@@ -217,8 +218,7 @@ void Window::onMove(double x, double y) {
 }
 
 void Window::onScroll(double by, bool isZoom) {
-  double x = 0, y = 0;
-  glfwGetCursorPos(window_, &x, &y);
+  const auto [x, y] = cursor();
   isDirty_ = true;
   if (isZoom || request_.isPicture) {
     // What is under the cursor stays there.

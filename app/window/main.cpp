@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
       program, "--exposure", -20, 20, [&](double x) { r.display.exposure = x; }, "stops (0)");
   program.add_option("--view", r.display.view, "of the colour config (its default)");
   program.add_option("--compare", r.reference, "a picture to compare with")->type_name("FILE");
+  program.add_flag("--events", r.tells, "a line on stdout for whatever happens, for scripts");
   addBuildOptions(program, r.build, "Options");
   addLimits(program, r.input.limits);
   try {

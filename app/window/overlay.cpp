@@ -23,7 +23,8 @@ ImVec2 vec(Vec2 v) { return {float(v.x), float(v.y)}; }
 void Window::drawOverlay() {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   if (isRegion_ && isDragged_)
-    list.AddRect({float(downX_), float(downY_)}, {float(lastX_), float(lastY_)}, kRay, 0, 0, 2);
+    list.AddRect({float(downX_ / density_), float(downY_ / density_)},
+                 {float(lastX_ / density_), float(lastY_ / density_)}, kRay, 0, 0, 2);
   if (inspection_ && snapshot_ && inspection_->open == snapshot_->open) drawPath(list);
 }
 
@@ -71,8 +72,7 @@ void Window::drawPath(ImDrawList& list) {
     if (isGone) break;
     const auto middle = project(at);
     if (middle) {
-      last = {(middle->x - Real(sheet_.left)) / (Real(sheet_.zoom) * Real(sheet_.width)),
-              (middle->y - Real(sheet_.top)) / (Real(sheet_.zoom) * Real(sheet_.height))};
+      if (const auto film = onFilm(seen, at, aspect, last)) last = *film;
     }
     const Region3 r = regionOf(v, reckoning_);
     std::vector<Vec3> round;

@@ -219,8 +219,7 @@ void Window::drawComparePanel() {
 
 void Window::drawPixelPanel() {
   if (!ImGui::CollapsingHeader("Pixel under the cursor", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  double x = 0, y = 0;
-  glfwGetCursorPos(window_, &x, &y);
+  const auto [x, y] = cursor();
   const auto at = pixelAt(x, y);
   if (!at || shown_.width == 0) return text("beside the picture\n ");
   const Film::Means* means = snapshot_ ? &snapshot_->means : nullptr;

@@ -11,9 +11,10 @@
 namespace vestige::app {
 namespace {
 
-constexpr int kCoarse = 8;           ///< the first picture's pixels are so many pixels wide
-constexpr int kFewPixels = 96 * 96;  ///< no coarser picture is needed of so few
-constexpr int kMostInPass = 4;       ///< samples a pixel between two pictures
+constexpr int kFinest = 2, kCoarsest = 64;   ///< the first picture's pixels, in pixels
+constexpr double kSoon = 0.02, kLate = 0.1;  ///< seconds that the first picture should take
+constexpr int kFewPixels = 96 * 96;          ///< no coarser picture is needed of so few
+constexpr int kMostInPass = 4;               ///< samples a pixel between two pictures
 constexpr int kFirstParticles = 20000, kMoreParticles = 4;  ///< then so many times as many
 
 /// Numbers of particles, growing, for an integrator that shoots some; {0} for the others.
@@ -43,7 +44,7 @@ Preview::Preview(SceneInput input, RenderOptions render, std::function<void()> w
 Preview::~Preview() {
   {
     const std::lock_guard lock(mutex_);
-    quits_ = true, cancel_ = true;
+    quits_ = cancel_ = cancelCoarse_ = true;
   }
   changed_.notify_all();
   thread_.join();
@@ -210,9 +211,9 @@ void Preview::renderPicture(const Wish& wish) {
         return fail(diagnostics.list().front().message);
       isPrepared = false;
     }
-    Film film = filmFor(wish, 1), coarse = filmFor(wish, kCoarse);
+    Film film = filmFor(wish, 1);
     if (particles == rounds.front() && film.width() * film.height() > kFewPixels) {
-      if (!renderStage(wish, coarse, kCoarse, 1, false)) return;
+      if (!renderCoarse(wish)) return;
       isPrepared = true;
     }
     if (particles != rounds.back()) {
@@ -228,11 +229,23 @@ void Preview::renderPicture(const Wish& wish) {
   setPhase("finished");
 }
 
+/// Large pixels first. How large is learnt from the time that the last ones took.
+bool Preview::renderCoarse(const Wish& wish) {
+  Film film = filmFor(wish, coarse_);
+  cancelCoarse_ = false;
+  const double start = secondsNow();
+  const bool isWhole = renderStage(wish, film, coarse_, 1, false);
+  const double seconds = secondsNow() - start;
+  if (seconds > kLate) coarse_ = std::min(kCoarsest, coarse_ * 2);
+  if (seconds < kSoon) coarse_ = std::max(kFinest, coarse_ / 2);
+  return isWhole && !cancel_;
+}
+
 bool Preview::renderStage(const Wish& wish, Film& film, int scale, int samples, bool isPrepared) {
   Scene& scene = open_->scene();
   RenderOptions options = render_;
   options.samples = samples;
-  options.cancel = &cancel_;
+  options.cancel = scale > 1 ? &cancelCoarse_ : &cancel_;
   options.isPrepared = isPrepared;
   options.mostInPass = kMostInPass;
   const double start = secondsNow();
@@ -247,8 +260,10 @@ bool Preview::renderStage(const Wish& wish, Film& film, int scale, int samples, 
       status_.samples = p.samples, status_.wanted = p.wanted;
     }
     answerRequests(wish);
+    if (cancel_ && p.elapsed > kLate) cancelCoarse_ = true;
     wake_();
   };
+  setPhase("rendering");
   const RenderResult result = render(scene, film, options);
   {
     const std::lock_guard lock(mutex_);

@@ -126,6 +126,7 @@ class Preview {
   void renderPicture(const Wish& wish);
   /// One size and one set of particles; false if something newer is wanted or it cannot be.
   bool renderStage(const Wish& wish, Film& film, int scale, int samples, bool isPrepared);
+  bool renderCoarse(const Wish& wish);
   Film filmFor(const Wish& wish, int scale) const;
   void publish(const Wish& wish, const Film& film, int scale, double seconds);
   void answerRequests(const Wish& wish);
@@ -148,11 +149,15 @@ class Preview {
   std::set<std::string> files_;
 
   std::atomic<bool> cancel_{false};
+  /// Of the coarse picture: it may be finished though something newer is wanted, or a camera that
+  /// is moved all the time would never be seen.
+  std::atomic<bool> cancelCoarse_{false};
   // Of the working thread alone:
   std::shared_ptr<OpenScene> open_;
   Wish done_;  ///< what open_ was made for
   double wished_ = 0;
   bool hasFirst_ = false;
+  int coarse_ = 8;            ///< how coarse the first picture is: as much as it takes to come soon
   std::optional<Film> film_;  ///< of the last stage, as far as it got
   Wish filmWish_;             ///< what it was made for
   std::thread thread_;

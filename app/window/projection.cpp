@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/window/projection.h"
 
+#include <vector>
+
 namespace vestige::app {
 namespace {
 
@@ -41,10 +43,17 @@ std::optional<Vec2> solve(const Camera& camera, Vec3 point, Real aspect, Vec2 at
 }  // namespace
 
 std::optional<Vec2> onFilm(const Camera& camera, Vec3 point, Real aspect, Vec2 start) {
-  for (const Vec2 at : {start, Vec2{Real(0.5), Real(0.5)}, Vec2{Real(0.25), Real(0.5)},
-                        Vec2{Real(0.75), Real(0.5)}})
-    if (const auto found = solve(camera, point, aspect, at)) return found;
-  return std::nullopt;
+  // A panorama has the same point beyond its edges again: on the film counts first.
+  std::optional<Vec2> beside;
+  std::vector<Vec2> starts = {start};
+  for (const Real y : {Real(0.5), Real(0.2), Real(0.8)})
+    for (const Real x : {Real(0.5), Real(0.2), Real(0.8)}) starts.push_back({x, y});
+  for (const Vec2 at : starts) {
+    const auto found = solve(camera, point, aspect, at);
+    if (found && found->x >= 0 && found->x <= 1 && found->y >= 0 && found->y <= 1) return found;
+    if (!beside) beside = found;
+  }
+  return beside;
 }
 
 }  // namespace vestige::app

@@ -15,6 +15,7 @@ struct ViewRequest {
   int windowWidth = 1280, windowHeight = 800;
   Display display;
   std::string reference;   ///< a picture to compare with
+  bool tells = false;      ///< a line on stdout for whatever happens
   bool isPicture = false;  ///< input.file is a picture, not a scene
 };
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 
 #include "app/terminal.h"
 #include "app/window/layers.h"
@@ -103,7 +104,7 @@ void Window::installCallbacks() {
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     of(w).isDirty_ = true;
-    of(w).onMove(x, y);
+    of(w).onMove(of(w).density_ * x, of(w).density_ * y);
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double by) {
     of(w).isDirty_ = true;
@@ -132,7 +133,10 @@ void Window::run() {
 /// Frames for what the user does come at once, for the renderer's progress a few times a second.
 bool Window::needsFrame() {
   if (isDirty_) return true;
-  const bool isNew = preview_ && preview_->snapshot() != snapshot_;
+  const auto fresh = preview_ ? preview_->snapshot() : nullptr;
+  const bool isNew = fresh != snapshot_;
+  // The first picture of something else is waited for.
+  if (isNew && (!snapshot_ || !fresh->wish.isSamePicture(snapshot_->wish))) return true;
   return (isNew || preview_) && glfwGetTime() - lastFrame_ > (isNew ? kFrameEvery : 0.5);
 }
 
@@ -185,7 +189,8 @@ void Window::takeSnapshot() {
 void Window::fit() {
   int w = 0, h = 0;
   glfwGetFramebufferSize(window_, &w, &h);
-  const float panel = hidesPanels_ ? 0 : panelWidth(), bar = hidesPanels_ ? 0 : statusHeight();
+  const auto shown = float(hidesPanels_ ? 0 : density_);
+  const float panel = shown * panelWidth(), bar = shown * statusHeight();
   const float wide = std::max(16.f, float(w) - panel - 2 * kMargin),
               high = std::max(16.f, float(h) - bar - 2 * kMargin);
   if (sheet_.width == 0) return;
@@ -199,8 +204,12 @@ void Window::fit() {
 
 void Window::draw() {
   int w = 0, h = 0;
+  int wide = 0;
   glfwGetFramebufferSize(window_, &w, &h);
-  if (w == 0 || h == 0) return;  // minimised
+  glfwGetWindowSize(window_, &wide, nullptr);
+  if (w == 0 || h == 0 || wide == 0) return;  // minimised
+  density_ = double(w) / wide;
+  const std::shared_ptr<const Snapshot> before = snapshot_;
   takeSnapshot();
   if (isFitted_) fit();
   // A region is a part of the film: its pixels lie where the film has them.
@@ -225,6 +234,37 @@ void Window::draw() {
   if (wantsShot_) saveScreenshot();
   glfwSwapBuffers(window_);
   lastFrame_ = glfwGetTime();
+  if (snapshot_ && snapshot_ != before) tellOfPicture(before.get());
+  if (preview_ && request_.tells) {
+    const Status s = preview_->status();
+    tell(s.isWrong ? "wrong" : s.phase);
+  }
+}
+
+void Window::tellOfPicture(const Snapshot* before) {
+  const bool isAsked = asked_ >= 0 && snapshot_->wish.isSamePicture(wish_);
+  if (isAsked) waits_.push_back(lastFrame_ - asked_), asked_ = -1;
+  if (!request_.tells) return;
+  if (!before || !snapshot_->wish.isSamePicture(before->wish))
+    std::cout << fmt::format("picture {} {:.0f} ms\n", snapshot_->integrator,
+                             isAsked ? 1000 * waits_.back() : 0.0)
+              << std::flush;
+  std::cout << fmt::format("samples {} scale {}\n", snapshot_->samples, snapshot_->scale)
+            << std::flush;
+}
+
+void Window::tellOfWaits() {
+  if (waits_.empty() || !request_.tells) return;
+  std::sort(waits_.begin(), waits_.end());
+  std::cout << fmt::format(
+      "waited {} times for another picture: median {:.0f} ms, worst {:.0f} ms\n", waits_.size(),
+      1000 * waits_[waits_.size() / 2], 1000 * waits_.back());
+}
+
+void Window::tell(const std::string& event) {
+  if (!request_.tells || event == told_) return;
+  told_ = event;
+  std::cout << event << std::endl;
 }
 
 void Window::saveScreenshot() {
@@ -240,6 +280,8 @@ void Window::saveScreenshot() {
 }
 
 void Window::say(const std::string& sentence) {
+  told_.clear();  // the same sentence may be said twice
+  tell(sentence);
   message_ = sentence;
   messageUntil_ = glfwGetTime() + 6;
   isDirty_ = true;
@@ -252,27 +294,27 @@ std::optional<Block> Window::camera() const {
 }
 
 std::optional<Vec2> Window::pixelAt(double x, double y) const {
-  float scale = 1;
-  glfwGetWindowContentScale(window_, &scale, nullptr);
-  int w = 0, fw = 0;
-  glfwGetWindowSize(window_, &w, nullptr);
-  glfwGetFramebufferSize(window_, &fw, nullptr);
-  const double density = w > 0 ? double(fw) / w : 1;
-  const Vec2 p = {Real((x * density - sheet_.left) / sheet_.zoom),
-                  Real((y * density - sheet_.top) / sheet_.zoom)};
+  const Vec2 p = {Real((x - sheet_.left) / sheet_.zoom), Real((y - sheet_.top) / sheet_.zoom)};
   if (p.x < 0 || p.y < 0 || p.x >= Real(sheet_.width) || p.y >= Real(sheet_.height))
     return std::nullopt;
   return p;
 }
 
 Vec2 Window::onWindow(Vec2 film) const {
-  return {Real(sheet_.left) + Real(sheet_.zoom) * film.x,
-          Real(sheet_.top) + Real(sheet_.zoom) * film.y};
+  return Real(1 / density_) * Vec2{Real(sheet_.left) + Real(sheet_.zoom) * film.x,
+                                   Real(sheet_.top) + Real(sheet_.zoom) * film.y};
+}
+
+std::pair<double, double> Window::cursor() const {
+  double x = 0, y = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  return {density_ * x, density_ * y};
 }
 
 int runWindow(const ViewRequest& request) {
   Window window(request);
   window.run();
+  window.tellOfWaits();
   return kFine;
 }
 

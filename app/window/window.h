@@ -28,6 +28,8 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   void run();
+  /// Of --events: how long the user waited for pictures.
+  void tellOfWaits();
 
  private:
   // window.cpp: the loop
@@ -76,12 +78,17 @@ class Window {
   void savePicture(const std::string& file);
   void openInEditor(const lang::Place& place);
   void say(const std::string& sentence);
+  /// Of --events.
+  void tell(const std::string& event);
+  void tellOfPicture(const Snapshot* before);
 
   /// What the camera is now: in the hand, or in the text.
   std::optional<Block> camera() const;
   const Schema& cameraSchema() const { return open_->cameraSchema; }
+  /// All of the mouse is in pixels of the frame; ImGui counts in those of the window.
+  std::pair<double, double> cursor() const;
   std::optional<Vec2> pixelAt(double x, double y) const;  ///< of the film; nullopt: beside it
-  Vec2 onWindow(Vec2 film) const;                         ///< film pixels to window pixels
+  Vec2 onWindow(Vec2 film) const;  ///< from pixels of the film to what ImGui counts in
 
   ViewRequest request_;
   GLFWwindow* window_ = nullptr;
@@ -125,6 +132,10 @@ class Window {
 
   bool isDirty_ = true, hidesPanels_ = false, showsHelp_ = false, wantsShot_ = false;
   double lastFrame_ = 0, lastWatch_ = 0, lastWalk_ = 0;
+  double density_ = 1;         ///< pixels of the frame for one of the window: HiDPI
+  double asked_ = -1;          ///< when the user last asked for another picture; -1: it is shown
+  std::vector<double> waits_;  ///< seconds from there to its first frame
+  std::string told_;
   char file_[512] = "";
 };
 

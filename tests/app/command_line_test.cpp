@@ -5,7 +5,7 @@
 
 TEST_CASE("help teaches: examples, commands, exit codes", "[app]") {
   for (const char* word : {"--help", "-h", "help"}) {
-    const Run r = vestige({word});
+    const Run r = runVestige({word});
     CHECK(r.exit == 0);
     CHECK(r.err == "");
     for (const char* text : {"hello.scene", "render", "check", "describe", "compare", "130"})
@@ -15,23 +15,23 @@ TEST_CASE("help teaches: examples, commands, exit codes", "[app]") {
 
 TEST_CASE("each command has its help", "[app]") {
   for (const char* command : {"render", "check", "describe", "compare"}) {
-    const Run r = vestige({command, "--help"});
+    const Run r = runVestige({command, "--help"});
     CHECK(r.exit == 0);
     CHECK_THAT(r.out, containsText(command));
-    CHECK(vestige({"help", command}).out == r.out);
+    CHECK(runVestige({"help", command}).out == r.out);
   }
-  CHECK_THAT(vestige({"render", "--help"}).out, containsText("--spp") && containsText("--crop"));
+  CHECK_THAT(runVestige({"render", "--help"}).out, containsText("--spp") && containsText("--crop"));
 }
 
 TEST_CASE("no argument at all shows the help and fails", "[app]") {
-  const Run r = vestige({});
+  const Run r = runVestige({});
   CHECK(r.exit == 2);
   CHECK(r.out == "");
   CHECK_THAT(r.err, containsText("vestige COMMAND --help"));
 }
 
 TEST_CASE("the version names every library", "[app]") {
-  const Run r = vestige({"--version"});
+  const Run r = runVestige({"--version"});
   CHECK(r.exit == 0);
   for (const char* text : {"vestige 0.", "Embree ", "OpenImageIO", "OpenColorIO", "fmt ", "CLI11 ",
                            "Real", "sdk=2", "lib/vestige/plugins"})
@@ -39,7 +39,7 @@ TEST_CASE("the version names every library", "[app]") {
 }
 
 TEST_CASE("a misspelt command is named, and the nearest", "[app]") {
-  const Run r = vestige({"rendr", "x.scene"});
+  const Run r = runVestige({"rendr", "x.scene"});
   CHECK(r.exit == 2);
   CHECK_THAT(r.err, containsText("'rendr'") && containsText("did you mean 'render'?"));
 }
@@ -47,7 +47,7 @@ TEST_CASE("a misspelt command is named, and the nearest", "[app]") {
 TEST_CASE("a misspelt option is named, and the nearest", "[app]") {
   for (const auto& words : {std::vector<std::string>{"render", "x.scene", "--sppp", "4"},
                             std::vector<std::string>{"render", "--sppp=4", "x.scene"}}) {
-    const Run r = vestige(words);
+    const Run r = runVestige(words);
     CHECK(r.exit == 2);
     CHECK_THAT(r.err, containsText("'--sppp'") && containsText("did you mean '--spp'?"));
   }
@@ -85,7 +85,7 @@ TEST_CASE("option values out of place are refused before anything is read", "[ap
   for (const auto& [words, message] : cases) {
     std::vector<std::string> line = {"render", scene, "-o", folder / "a.png"};
     line.insert(line.end(), words.begin(), words.end());
-    const Run r = vestige(line);
+    const Run r = runVestige(line);
     INFO(words[0] << ' ' << words[1] << '\n' << r.err);
     CHECK(r.exit == 2);
     CHECK_THAT(r.err, containsText(message));
@@ -96,12 +96,12 @@ TEST_CASE("option values out of place are refused before anything is read", "[ap
 TEST_CASE("a scene file that is not there is named, and the nearest", "[app]") {
   const Folder folder;
   folder.write("cornell.scene", smallScene());
-  const Run r = vestige({"render", "cornel.scene"}, {.folder = folder.path()});
+  const Run r = runVestige({"render", "cornel.scene"}, {.folder = folder.path()});
   CHECK(r.exit == 2);
   CHECK_THAT(r.err, containsText("there is no scene file 'cornel.scene'") &&
                         containsText("did you mean 'cornell.scene'?"));
-  CHECK(vestige({"render"}).exit == 2);
-  CHECK(vestige({"render", folder.path().string()}).exit == 2);
+  CHECK(runVestige({"render"}).exit == 2);
+  CHECK(runVestige({"render", folder.path().string()}).exit == 2);
 }
 
 TEST_CASE("without plugins it says where it looked", "[app]") {
@@ -109,7 +109,7 @@ TEST_CASE("without plugins it says where it looked", "[app]") {
   std::filesystem::create_directory(folder.path() / "bin");
   std::filesystem::copy_file(VESTIGE_BINARY, folder.path() / "bin/vestige");
   const std::string scene = folder.write("a.scene", smallScene());
-  const Run r = vestige({"check", scene}, {.program = folder / "bin/vestige"});
+  const Run r = runVestige({"check", scene}, {.program = folder / "bin/vestige"});
   CHECK(r.exit == 3);
   CHECK_THAT(r.err,
              containsText("found no plugin") && containsText(folder / "lib/vestige/plugins"));
@@ -119,10 +119,10 @@ TEST_CASE("a broken library that the scene does not name goes unmentioned", "[ap
   const Folder folder;
   folder.write("brdf_stranger.so", "not a library");
   const std::string scene = folder.write("a.scene", smallScene());
-  const Run r = vestige({"check", scene, "--plugin-path", folder.path().string()});
+  const Run r = runVestige({"check", scene, "--plugin-path", folder.path().string()});
   CHECK(r.exit == 0);
   CHECK(r.err.empty());
-  const Run all = vestige({"describe", "--plugin-path", folder.path().string()});
+  const Run all = runVestige({"describe", "--plugin-path", folder.path().string()});
   CHECK(all.exit == 0);
   CHECK_THAT(all.err, containsText("warning") && containsText("brdf_stranger.so"));
 }
@@ -132,7 +132,7 @@ TEST_CASE("a library whose name promises nothing is refused with a reason and th
   const Folder folder;
   folder.write("stranger.so", "not a library");
   const std::string scene = folder.write("a.scene", smallScene());
-  const Run r = vestige({"check", scene, "--plugin-path", folder.path().string()});
+  const Run r = runVestige({"check", scene, "--plugin-path", folder.path().string()});
   CHECK(r.exit == 0);
   CHECK_THAT(r.err, containsText("warning") && containsText("stranger.so"));
 }
@@ -145,7 +145,7 @@ TEST_CASE("a scene that names a broken library is told why", "[app]") {
     std::vector<std::string> words = {"inspect", folder.write("a.scene", smallScene(more))};
     words.insert(words.end(), {"0", "0", "--plugin-path", folder.path().string()});
     words.insert(words.end(), options.begin(), options.end());
-    return vestige(words);
+    return runVestige(words);
   };
   /// Once, and of no other library.
   const auto isTold = [&](const std::string& text, const std::string& file) {
@@ -172,7 +172,7 @@ TEST_CASE("a broken library does not displace a sound one, and is told", "[app]"
   const Folder folder;
   folder.write("brdf_lambert.so", "not a library");
   const std::string scene = folder.write("a.scene", smallScene());
-  const Run r = vestige({"check", scene, "--plugin-path", folder.path().string()});
+  const Run r = runVestige({"check", scene, "--plugin-path", folder.path().string()});
   CHECK(r.exit == 0);
   CHECK_THAT(r.err, containsText("warning") && containsText(folder / "brdf_lambert.so"));
 }

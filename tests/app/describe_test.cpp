@@ -32,7 +32,7 @@ int columnsOf(const std::string& row) {
 }  // namespace
 
 TEST_CASE("describe lists the kinds and their plugins", "[app]") {
-  const Run r = vestige({"describe"});
+  const Run r = runVestige({"describe"});
   CHECK(r.exit == 0);
   for (const char* word :
        {"brdf", "lambert", "camera", "pinhole", "light", "shape", "sphere", "film"})
@@ -40,10 +40,10 @@ TEST_CASE("describe lists the kinds and their plugins", "[app]") {
 }
 
 TEST_CASE("describe of a plugin shows its parameters in aligned columns", "[app]") {
-  const Run r = vestige({"describe", "brdf", "phong"});
+  const Run r = runVestige({"describe", "brdf", "phong"});
   CHECK(r.exit == 0);
   CHECK_THAT(r.out, containsText("exponent") && containsText("colour or pigment"));
-  CHECK(vestige({"describe", "phong"}).out == r.out);
+  CHECK(runVestige({"describe", "phong"}).out == r.out);
   std::size_t type = 0;
   std::istringstream lines(r.out);
   for (std::string line; std::getline(lines, line);) {
@@ -56,8 +56,8 @@ TEST_CASE("describe of a plugin shows its parameters in aligned columns", "[app]
 
 TEST_CASE("describe keeps to the width of the terminal", "[app]") {
   for (const int width : {50, 80, 120}) {
-    const Run r = vestige({"describe", "camera", "thin_lens"},
-                          {.variables = {{"COLUMNS", std::to_string(width)}}});
+    const Run r = runVestige({"describe", "camera", "thin_lens"},
+                             {.variables = {{"COLUMNS", std::to_string(width)}}});
     std::istringstream lines(r.out);
     int longest = 0;
     for (std::string line; std::getline(lines, line);)
@@ -68,16 +68,16 @@ TEST_CASE("describe keeps to the width of the terminal", "[app]") {
 }
 
 TEST_CASE("describe of a misspelt word names the nearest", "[app]") {
-  const Run kind = vestige({"describe", "brfd"});
+  const Run kind = runVestige({"describe", "brfd"});
   CHECK(kind.exit == 2);
   CHECK_THAT(kind.err, containsText("did you mean 'brdf'?"));
-  const Run name = vestige({"describe", "brdf", "fong"});
+  const Run name = runVestige({"describe", "brdf", "fong"});
   CHECK(name.exit == 2);
   CHECK_THAT(name.err, containsText("'fong'") && containsText("phong"));
 }
 
 TEST_CASE("describe --json holds all schemas", "[app]") {
-  const json all = json::parse(vestige({"describe", "--json"}).out);
+  const json all = json::parse(runVestige({"describe", "--json"}).out);
   bool found = false;
   for (const json& schema : all) {
     CHECK(schema.at("kind").is_string());
@@ -90,14 +90,14 @@ TEST_CASE("describe --json holds all schemas", "[app]") {
     CHECK(exponent);
   }
   CHECK(found);
-  CHECK(json::parse(vestige({"describe", "brdf", "phong", "--json"}).out).size() == 1);
+  CHECK(json::parse(runVestige({"describe", "brdf", "phong", "--json"}).out).size() == 1);
 }
 
 TEST_CASE("docs/reference is what describe --markdown writes today", "[app]") {
   const Folder folder;
   // As docs/reference/make does: nobody's own plugins.
-  const Run r = vestige({"describe", "--markdown", folder / "pages"},
-                        {.variables = {{"HOME", folder / "home"}, {"VESTIGE_PLUGIN_PATH", ""}}});
+  const Run r = runVestige({"describe", "--markdown", folder / "pages"},
+                           {.variables = {{"HOME", folder / "home"}, {"VESTIGE_PLUGIN_PATH", ""}}});
   INFO(r.err);
   REQUIRE(r.exit == 0);
   const std::filesystem::path kept = std::filesystem::path(VESTIGE_SOURCE_DIR) / "docs/reference";
@@ -117,7 +117,7 @@ TEST_CASE("docs/reference is what describe --markdown writes today", "[app]") {
 
 TEST_CASE("describe --markdown: a stranger's words do not break the page", "[app]") {
   const Folder folder;
-  const Run r = vestige(
+  const Run r = runVestige(
       {"describe", "brdf", "--markdown", folder / "pages", "--plugin-path", VESTIGE_AWKWARD});
   INFO(r.err);
   REQUIRE(r.exit == 0);
@@ -138,7 +138,7 @@ TEST_CASE("describe --markdown: a stranger's words do not break the page", "[app
 TEST_CASE("describe --markdown says what it could not write", "[app]") {
   const Folder folder;
   const std::string file = folder.write("pages", "a file");
-  const Run r = vestige({"describe", "--markdown", file});
+  const Run r = runVestige({"describe", "--markdown", file});
   CHECK(r.exit == 3);
   CHECK_THAT(r.err, containsText(file));
 }

@@ -22,14 +22,14 @@ plane { y, 0 brdf lambert { diffuse pigment checker { rgb 0.2, rgb 0.8 } } }
 TEST_CASE("inspect tells what a path hit and how large it is there", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", kPlane);
-  const Run text = vestige({"inspect", scene, "31", "40"});
+  const Run text = runVestige({"inspect", scene, "31", "40"});
   INFO(text.err);
   CHECK(text.exit == 0);
   CHECK_THAT(text.out, containsText("plane with brdf lambert") && containsText("a.scene:6") &&
                            containsText("film x") && containsText("N_eff") &&
                            containsText("exact area"));
 
-  const Run json = vestige({"inspect", scene, "31", "40", "--json"});
+  const Run json = runVestige({"inspect", scene, "31", "40", "--json"});
   REQUIRE(json.exit == 0);
   const auto j = nlohmann::json::parse(json.out);
   const auto& first = j["vertices"][0];
@@ -47,7 +47,7 @@ TEST_CASE("inspect: later samples stand for less, bounds can be chosen", "[app]"
   const auto size = [&](std::vector<std::string> more) {
     std::vector<std::string> words = {"inspect", scene, "10", "10", "--json"};
     words.insert(words.end(), more.begin(), more.end());
-    const Run r = vestige(words);
+    const Run r = runVestige(words);
     INFO(r.err);
     REQUIRE(r.exit == 0);
     return nlohmann::json::parse(r.out)["vertices"][0]["footprint"]["size"].get<double>();
@@ -61,13 +61,13 @@ TEST_CASE("inspect: later samples stand for less, bounds can be chosen", "[app]"
 TEST_CASE("inspect refuses what it cannot answer", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", kPlane);
-  const Run outside = vestige({"inspect", scene, "64", "0"});
+  const Run outside = runVestige({"inspect", scene, "64", "0"});
   CHECK(outside.exit == 2);
   CHECK_THAT(outside.err, containsText("64 x 64"));
-  const Run bound = vestige({"inspect", scene, "1", "1", "--footprint", "locl"});
+  const Run bound = runVestige({"inspect", scene, "1", "1", "--footprint", "locl"});
   CHECK(bound.exit == 2);
   CHECK_THAT(bound.err, containsText("did you mean 'local'?"));
-  const Run none = vestige({"inspect", scene, "1", "1", "--footprint", "none"});
+  const Run none = runVestige({"inspect", scene, "1", "1", "--footprint", "none"});
   CHECK(none.exit == 0);
   CHECK_THAT(none.out, containsText("carries no differentials"));
 }
@@ -77,7 +77,7 @@ TEST_CASE("a footprint block is checked like any other", "[app]") {
   const auto check = [&](const std::string& block) {
     std::string text = kPlane;
     text.replace(text.find("depth 3"), 7, "depth 3 " + block);
-    return vestige({"check", folder.write("b.scene", text)});
+    return runVestige({"check", folder.write("b.scene", text)});
   };
   CHECK(check("footprint safe").exit == 0);
   CHECK(check("footprint gradient { limit 0.5 scale 2 }").exit == 0);
@@ -92,8 +92,8 @@ TEST_CASE("a footprint block is checked like any other", "[app]") {
 TEST_CASE("inspect tells where roulette ended a path", "[app]") {
   int escaped = 0, ended = 0;
   for (int sample = 0; sample < 20; ++sample) {
-    const Run r = vestige({"inspect", VESTIGE_SOURCE_DIR "/examples/cornell.scene", "200", "200",
-                           "--sample", std::to_string(sample), "--json"});
+    const Run r = runVestige({"inspect", VESTIGE_SOURCE_DIR "/examples/cornell.scene", "200", "200",
+                              "--sample", std::to_string(sample), "--json"});
     REQUIRE(r.exit == 0);
     const auto j = nlohmann::json::parse(r.out)["vertices"];
     const auto last = j.back();
@@ -107,8 +107,8 @@ TEST_CASE("inspect tells where roulette ended a path", "[app]") {
 TEST_CASE("a footprint asked of an integrator that has none is a warning", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", kPlane);
-  const Run r = vestige({"render", scene, "--integrator", "normals", "--footprint", "safe", "--spp",
-                         "1", "-o", (folder.path() / "a.exr").string()});
+  const Run r = runVestige({"render", scene, "--integrator", "normals", "--footprint", "safe",
+                            "--spp", "1", "-o", (folder.path() / "a.exr").string()});
   CHECK(r.exit == 0);
   CHECK_THAT(r.err, containsText("integrator normals has no footprints"));
 }
@@ -127,7 +127,7 @@ std::string room(const std::string& footprint) {
 TEST_CASE("the cones of other renderers open by their own rules", "[app]") {
   const Folder folder;
   for (const std::string bound : {"cone_roughness", "cone_density"}) {
-    const Run r = vestige(
+    const Run r = runVestige(
         {"inspect", folder.write("a.scene", room(bound)), "31", "31", "--spp", "16", "--json"});
     REQUIRE(r.exit == 0);
     const auto v = nlohmann::json::parse(r.out)["vertices"];
@@ -148,7 +148,7 @@ TEST_CASE("a limit of the score lets matt surfaces be", "[app]") {
   const auto deltas = [&](const std::string& of) {
     const std::string scene =
         folder.write("a.scene", room("safe { limit 0.001 of \"" + of + "\" }"));
-    const Run r = vestige({"inspect", scene, "31", "31", "--sample", "15", "--json"});
+    const Run r = runVestige({"inspect", scene, "31", "31", "--sample", "15", "--json"});
     INFO(r.err);
     REQUIRE(r.exit == 0);
     const auto d = nlohmann::json::parse(r.out)["vertices"][1]["differentials"];
@@ -164,7 +164,7 @@ TEST_CASE("a limit of the score lets matt surfaces be", "[app]") {
 TEST_CASE("inspect --svg draws the path and a panel a vertex", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", kPlane);
-  const Run r = vestige({"inspect", scene, "31", "40", "--svg", folder / "a.svg"});
+  const Run r = runVestige({"inspect", scene, "31", "40", "--svg", folder / "a.svg"});
   INFO(r.err);
   REQUIRE(r.exit == 0);
   std::ifstream in(folder / "a.svg");
@@ -181,12 +181,12 @@ integrator path { samples 1 }
 light environment { radiance rgb 1 }
 plane { y, 0 brdf lambert { } }
 )");
-  REQUIRE(vestige({"inspect", up, "4", "4", "--svg", folder / "up.svg"}).exit == 0);
+  REQUIRE(runVestige({"inspect", up, "4", "4", "--svg", folder / "up.svg"}).exit == 0);
   std::ifstream nothing(folder / "up.svg");
   const std::string empty{std::istreambuf_iterator<char>(nothing), {}};
   CHECK_THAT(empty, containsText("meets no surface"));
 
-  const Run nowhere = vestige({"inspect", scene, "31", "40", "--svg", folder / "no/a.svg"});
+  const Run nowhere = runVestige({"inspect", scene, "31", "40", "--svg", folder / "no/a.svg"});
   CHECK(nowhere.exit == 3);
   CHECK_THAT(nowhere.err, containsText("no/a.svg"));
 }

@@ -14,7 +14,7 @@ std::string room(const std::string& settings = "particles 20000") {
 }
 
 bool areSame(const std::string& a, const std::string& b) {
-  const Run r = vestige({"compare", a, b, "--json"});
+  const Run r = runVestige({"compare", a, b, "--json"});
   return r.exit == 0 && nlohmann::json::parse(r.out).at("rmse").get<double>() == 0;
 }
 
@@ -24,9 +24,9 @@ TEST_CASE("a solution is kept, and seen again without particles", "[app][particl
   const Folder folder;
   const std::string scene = folder.write("a.scene", room());
   const std::string light = folder / "a.light", a = folder / "a.exr", b = folder / "b.exr";
-  REQUIRE(vestige({scene, "-o", a, "--spp", "2", "--save-solution", light}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", a, "--spp", "2", "--save-solution", light}).exit == 0);
   CHECK(folder.names().size() == 3);  // nothing half done is left
-  const Run again = vestige({scene, "-o", b, "--spp", "2", "--load-solution", light});
+  const Run again = runVestige({scene, "-o", b, "--spp", "2", "--load-solution", light});
   INFO(again.err);
   CHECK(again.exit == 0);
   CHECK(areSame(a, b));
@@ -34,7 +34,7 @@ TEST_CASE("a solution is kept, and seen again without particles", "[app][particl
   std::string moved = room();
   moved.replace(moved.find("<0, 1.5, -5>"), 12, "<3, 2.5, -4>");
   const std::string other = folder.write("b.scene", moved);
-  CHECK(vestige({other, "-o", b, "--width", "40", "--load-solution", light}).exit == 0);
+  CHECK(runVestige({other, "-o", b, "--width", "40", "--load-solution", light}).exit == 0);
 }
 
 TEST_CASE("parts of the particles add up to all of them", "[app][particle]") {
@@ -45,13 +45,13 @@ TEST_CASE("parts of the particles add up to all of them", "[app][particle]") {
   std::vector<std::string> sum = {whole, "-o", folder / "b.exr", "--spp", "1"};
   for (const char* n : {"1", "2", "3"}) {
     const std::string file = folder / (std::string("part") + n);
-    REQUIRE(vestige({part, "-D", std::string("Part=") + n, "-o", folder / "x.exr", "--spp", "1",
-                     "--save-solution", file})
+    REQUIRE(runVestige({part, "-D", std::string("Part=") + n, "-o", folder / "x.exr", "--spp", "1",
+                        "--save-solution", file})
                 .exit == 0);
     sum.insert(sum.end(), {"--load-solution", file});
   }
-  REQUIRE(vestige({whole, "-o", folder / "a.exr", "--spp", "1"}).exit == 0);
-  REQUIRE(vestige(sum).exit == 0);
+  REQUIRE(runVestige({whole, "-o", folder / "a.exr", "--spp", "1"}).exit == 0);
+  REQUIRE(runVestige(sum).exit == 0);
   CHECK(areSame(folder / "a.exr", folder / "b.exr"));
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("solutions that cannot be read or written are told before any work", "
   const std::string scene = folder.write("a.scene", room("particles 1000000000"));
   const std::string png = folder / "a.png";
   const auto complaint = [&](const std::string& option, const std::string& file, int code) {
-    const Run r = vestige({scene, "-o", png, option, file});
+    const Run r = runVestige({scene, "-o", png, option, file});
     CHECK(r.exit == code);
     return r.err;
   };
@@ -70,12 +70,12 @@ TEST_CASE("solutions that cannot be read or written are told before any work", "
   CHECK_THAT(complaint("--load-solution", "", 2), containsText("wants a file"));
 
   const std::string other = folder.write("b.scene", smallScene());
-  CHECK(vestige({scene, "-o", png, "--time", "1s", "--save-solution", folder / "l"}).exit == 0);
+  CHECK(runVestige({scene, "-o", png, "--time", "1s", "--save-solution", folder / "l"}).exit == 0);
   const Run foreign =
-      vestige({other, "-o", png, "--integrator", "particle", "--load-solution", folder / "l"});
+      runVestige({other, "-o", png, "--integrator", "particle", "--load-solution", folder / "l"});
   CHECK(foreign.exit == 3);
   CHECK_THAT(foreign.err, containsText("was made for other surfaces"));
-  const Run path = vestige({other, "-o", png, "--save-solution", folder / "p"});
+  const Run path = runVestige({other, "-o", png, "--save-solution", folder / "p"});
   CHECK(path.exit == 1);
   CHECK_THAT(path.err, containsText("integrator path has no 'save_solution'"));
 }
@@ -84,7 +84,7 @@ TEST_CASE("a scene cannot write files by itself", "[app][particle]") {
   const Folder folder;
   const std::string scene =
       folder.write("a.scene", room("save_solution \"" + (folder / "stolen") + "\""));
-  const Run r = vestige({scene, "-o", folder / "a.png"});
+  const Run r = runVestige({scene, "-o", folder / "a.png"});
   CHECK(r.exit == 1);
   CHECK_THAT(r.err, containsText("a.scene:") && containsText("command line"));
   CHECK(folder.names().size() == 1);
@@ -94,17 +94,17 @@ TEST_CASE("time is shared between particles and picture, and an interruption kee
           "[app][particle]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", room("particles 1000000000"));
-  const Run timed = vestige({scene, "-o", folder / "a.png", "--time", "2s"});
+  const Run timed = runVestige({scene, "-o", folder / "a.png", "--time", "2s"});
   CHECK(timed.exit == 0);
   CHECK_THAT(timed.err, containsText("of 1000000000 particles"));
   CHECK(looksLikePicture(folder / "a.png"));
 
-  const Run stopped = vestige(
+  const Run stopped = runVestige(
       {scene, "-o", folder / "b.png", "--save-solution", folder / "l", "--progress", "json"},
       {.folder = {}, .interruptAt = "\"preparing\""});
   CHECK(stopped.exit == 130);
   CHECK_THAT(stopped.err, containsText("saved the solution of the particles sent so far"));
-  CHECK(vestige({scene, "-o", folder / "b.png", "--spp", "1", "--load-solution", folder / "l"})
+  CHECK(runVestige({scene, "-o", folder / "b.png", "--spp", "1", "--load-solution", folder / "l"})
             .exit == 0);
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("memory for elements that is used up is told, and the picture made", "
   const Folder folder;
   const std::string scene =
       folder.write("a.scene", room("particles 300000 memory 1 oracle \"uniform\" level 9"));
-  const Run r = vestige({scene, "-o", folder / "a.png", "--spp", "1"});
+  const Run r = runVestige({scene, "-o", folder / "a.png", "--spp", "1"});
   CHECK(r.exit == 0);
   CHECK_THAT(r.err, containsText("the elements fill their memory"));
   CHECK(looksLikePicture(folder / "a.png"));

@@ -32,13 +32,13 @@ std::string withLambert(const Folder& home, const std::string& name) {
 }  // namespace
 
 TEST_CASE("every plugin is listed with versions and library", "[app][plugin]") {
-  const Run r = vestige({"plugin", "list"});
+  const Run r = runVestige({"plugin", "list"});
   CHECK(r.exit == 0);
   CHECK(r.err == "");
   CHECK_THAT(r.out, containsText("brdf_lambert.so") && containsText("SDK ") &&
                         containsText(VESTIGE_PLUGINS "\n") && containsText(" plugins, for SDK ") &&
                         containsText(" built as lib"));
-  const nlohmann::json all = nlohmann::json::parse(vestige({"plugin", "list", "--json"}).out);
+  const nlohmann::json all = nlohmann::json::parse(runVestige({"plugin", "list", "--json"}).out);
   CHECK(all["plugins"].size() > 40);
   for (const auto& p : all["plugins"])
     CHECK_THAT(p["abi"].get<std::string>(), containsText(" real=") && containsText(" sdk="));
@@ -52,7 +52,7 @@ TEST_CASE("the nearer folder goes before", "[app][plugin]") {
   const std::string home_ = home.path().string();
   const auto list = [&](std::vector<std::string> more, const std::string& path) {
     more.insert(more.begin(), {"plugin", "list", "--json"});
-    return fileOf(vestige(more, {.variables = {{"HOME", home_}, {"VESTIGE_PLUGIN_PATH", path}}}),
+    return fileOf(runVestige(more, {.variables = {{"HOME", home_}, {"VESTIGE_PLUGIN_PATH", path}}}),
                   "brdf", "lambert");
   };
   CHECK(list({"--plugin-path", option}, named) == option + "/brdf_lambert.so");
@@ -69,7 +69,7 @@ TEST_CASE("libraries that are refused are told with reasons, the others are list
     fs::copy_file(kLambert, folder.path() / name);
     fs::resize_file(folder.path() / name, std::uintmax_t(double(size) * share));
   }
-  const Run r = vestige({"plugin", "list", "--plugin-path", folder.path().string()});
+  const Run r = runVestige({"plugin", "list", "--plugin-path", folder.path().string()});
   INFO(r.err);
   CHECK(r.exit == 0);
   CHECK_THAT(r.out, containsText("brdf_lambert.so"));
@@ -81,17 +81,17 @@ TEST_CASE("libraries that are refused are told with reasons, the others are list
 TEST_CASE("a folder that cannot be listed is told", "[app][plugin]") {
   const Folder folder;
   const std::string file = folder.write("plain.txt", "");
-  const Run plain = vestige({"plugin", "list"}, {.variables = {{"VESTIGE_PLUGIN_PATH", file}}});
+  const Run plain = runVestige({"plugin", "list"}, {.variables = {{"VESTIGE_PLUGIN_PATH", file}}});
   CHECK(plain.exit == 0);
   CHECK_THAT(plain.err, containsText(file + "': it is no folder"));
   fs::create_directory_symlink("ring", folder.path() / "ring");
   CHECK_THAT(
-      vestige({"plugin", "list"}, {.variables = {{"VESTIGE_PLUGIN_PATH", folder / "ring"}}}).err,
+      runVestige({"plugin", "list"}, {.variables = {{"VESTIGE_PLUGIN_PATH", folder / "ring"}}}).err,
       containsText("no plugin is looked for in '" + folder / "ring"));
   if (geteuid() == 0) return;  // to whom no folder is closed
   fs::create_directory(folder.path() / "closed");
   fs::permissions(folder.path() / "closed", fs::perms::none);
-  const Run closed = vestige({"plugin", "list", "--plugin-path", folder / "closed"});
+  const Run closed = runVestige({"plugin", "list", "--plugin-path", folder / "closed"});
   fs::permissions(folder.path() / "closed", fs::perms::owner_all);
   CHECK(closed.exit == 0);
   CHECK_THAT(closed.err,

@@ -16,7 +16,7 @@ std::string contents(const std::string& file) {
 
 Run make(const Folder& folder, std::vector<std::string> words) {
   words.insert(words.begin(), {"plugin", "new"});
-  return vestige(words, {.folder = folder.path()});
+  return runVestige(words, {.folder = folder.path()});
 }
 
 }  // namespace
@@ -100,14 +100,14 @@ TEST_CASE("a folder that is there already is left alone", "[app][plugin]") {
 }
 
 TEST_CASE("a misspelt command of plugin is named, and the nearest", "[app][plugin]") {
-  const Run r = vestige({"plugin", "lisst"});
+  const Run r = runVestige({"plugin", "lisst"});
   CHECK(r.exit == 2);
   CHECK_THAT(r.err, containsText("'vestige plugin' has no command 'lisst'") &&
                         containsText("did you mean 'list'?"));
-  const Run option = vestige({"plugin", "list", "--jsn"});
+  const Run option = runVestige({"plugin", "list", "--jsn"});
   CHECK(option.exit == 2);
   CHECK_THAT(option.err, containsText("'vestige plugin list' has no option '--jsn'") &&
                              containsText("did you mean '--json'?"));
-  CHECK(vestige({"plugin"}).exit == 2);
-  CHECK_THAT(vestige({"help", "plugin", "new"}).out, containsText("--dual"));
+  CHECK(runVestige({"plugin"}).exit == 2);
+  CHECK_THAT(runVestige({"help", "plugin", "new"}).out, containsText("--dual"));
 }

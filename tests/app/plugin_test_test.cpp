@@ -14,21 +14,22 @@ const std::string kPlugins = VESTIGE_PLUGINS, kForeign = VESTIGE_HALF_PDF;
 
 TEST_CASE("plugin test: a good library", "[app][plugin]") {
   for (const char* name : {"/brdf_phong.so", "/light_spot.so", "/camera_pinhole.so"}) {
-    const Run r = vestige({"plugin", "test", kPlugins + name, "--samples", "4096", "--seed", "3"});
+    const Run r =
+        runVestige({"plugin", "test", kPlugins + name, "--samples", "4096", "--seed", "3"});
     INFO(r.out << r.err);
     CHECK(r.exit == 0);
     CHECK_THAT(r.out, containsText("seed 3"));
     CHECK_THAT(r.out, containsText("pass  "));
   }
-  const Run pigment = vestige({"plugin", "test", kPlugins + "/pigment_agate.so"});
+  const Run pigment = runVestige({"plugin", "test", kPlugins + "/pigment_agate.so"});
   CHECK(pigment.exit == 0);
   CHECK_THAT(pigment.out, containsText("only its schema and its creation were checked"));
 }
 
 TEST_CASE("plugin test: a wrong density is named, with a report", "[app][plugin]") {
   const Folder folder;
-  const Run r = vestige({"plugin", "test", kForeign + "/brdf_half_pdf.so", "--samples", "4096",
-                         "--report", folder / "report"});
+  const Run r = runVestige({"plugin", "test", kForeign + "/brdf_half_pdf.so", "--samples", "4096",
+                            "--report", folder / "report"});
   INFO(r.out << r.err);
   CHECK(r.exit == 1);
   CHECK_THAT(r.out, containsText("pdf() is wrong: with {"));
@@ -47,7 +48,7 @@ TEST_CASE("plugin test: a wrong density is named, with a report", "[app][plugin]
 TEST_CASE("plugin test: reports of a light and a camera", "[app][plugin]") {
   const Folder folder;
   const auto report = [&](const char* name) {
-    const Run r = vestige(
+    const Run r = runVestige(
         {"plugin", "test", kPlugins + name, "--samples", "1024", "--report", folder / "report"});
     INFO(r.err);
     CHECK(r.exit == 0);
@@ -67,11 +68,11 @@ TEST_CASE("plugin test: reports of a light and a camera", "[app][plugin]") {
 }
 
 TEST_CASE("plugin test: what cannot be loaded", "[app][plugin]") {
-  const Run missing = vestige({"plugin", "test", "nowhere.so"});
+  const Run missing = runVestige({"plugin", "test", "nowhere.so"});
   CHECK(missing.exit == 3);
   CHECK_THAT(missing.err, containsText("there is no library 'nowhere.so'"));
   const Folder folder;
-  const Run text = vestige({"plugin", "test", folder.write("text.so", "no library")});
+  const Run text = runVestige({"plugin", "test", folder.write("text.so", "no library")});
   CHECK(text.exit == 3);
   CHECK_THAT(text.err, containsText("was not loaded"));
 }

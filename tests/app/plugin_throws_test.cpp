@@ -12,7 +12,7 @@ TEST_CASE("what a plugin's constructor throws is told, and nothing crashes", "[a
         "a.scene",
         smallScene("sphere { <0, 1, 0>, 1 brdf throws { how " + std::string(how) + " } }"));
     const Run r =
-        vestige({"render", scene, "-o", folder / "a.png", "--plugin-path", VESTIGE_THROWS});
+        runVestige({"render", scene, "-o", folder / "a.png", "--plugin-path", VESTIGE_THROWS});
     INFO(r.err);
     CHECK(r.exit == 1);
     CHECK_THAT(r.err, containsText(message) && containsText("a.scene:5"));
@@ -23,7 +23,8 @@ TEST_CASE("a crash inside a plugin names its library", "[app][plugin]") {
   const Folder folder;
   const std::string scene =
       folder.write("a.scene", smallScene("sphere { <0, 1, 0>, 1 brdf throws { how 3 } }"));
-  const Run r = vestige({"render", scene, "-o", folder / "a.png", "--plugin-path", VESTIGE_THROWS});
+  const Run r =
+      runVestige({"render", scene, "-o", folder / "a.png", "--plugin-path", VESTIGE_THROWS});
   CHECK(r.exit != 0);
   // A sanitizer tells it in its own way.
   CHECK_THAT(r.err, containsText("brdf_throws.so"));

@@ -12,7 +12,7 @@ namespace {
 
 /// RMSE between two pictures, by `vestige compare`; negative if it failed.
 double rmse(const std::string& a, const std::string& b) {
-  const Run r = vestige({"compare", a, b, "--json"});
+  const Run r = runVestige({"compare", a, b, "--json"});
   return r.exit == 0 ? json::parse(r.out).at("rmse").get<double>() : -1;
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("render writes each picture asked for", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string png = folder / "a.png", exr = folder / "a.exr";
-  const Run r = vestige({"render", scene, "-o", png, "-o", exr, "--spp", "1"});
+  const Run r = runVestige({"render", scene, "-o", png, "-o", exr, "--spp", "1"});
   INFO(r.err);
   CHECK(r.exit == 0);
   CHECK(r.out == "");
@@ -52,18 +52,18 @@ TEST_CASE("render writes each picture asked for", "[app]") {
 TEST_CASE("a bare scene renders to its name with .png, here", "[app]") {
   const Folder scenes, here;
   const std::string scene = scenes.write("hello.scene", smallScene());
-  CHECK(vestige({scene, "--spp", "1"}, {.folder = here.path()}).exit == 0);
+  CHECK(runVestige({scene, "--spp", "1"}, {.folder = here.path()}).exit == 0);
   CHECK(looksLikePicture(here / "hello.png"));
-  CHECK(vestige({"--spp", "1", scene, "--progress", "none"}, {.folder = here.path()}).err == "");
+  CHECK(runVestige({"--spp", "1", scene, "--progress", "none"}, {.folder = here.path()}).err == "");
 }
 
 TEST_CASE("the same render twice, and by one thread or two, is the same picture", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string a = folder / "a.exr", b = folder / "b.exr", c = folder / "c.exr";
-  REQUIRE(vestige({scene, "-o", a, "--spp", "4", "--threads", "1"}).exit == 0);
-  REQUIRE(vestige({scene, "-o", b, "--spp", "4", "--threads", "2"}).exit == 0);
-  REQUIRE(vestige({scene, "-o", c, "--spp", "4", "--seed", "7"}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", a, "--spp", "4", "--threads", "1"}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", b, "--spp", "4", "--threads", "2"}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", c, "--spp", "4", "--seed", "7"}).exit == 0);
   CHECK(rmse(a, b) == 0);
   CHECK(rmse(a, c) > 0);
 }
@@ -74,9 +74,9 @@ TEST_CASE("-D reaches the scene, which keeps its own value otherwise", "[app]") 
       "#ifndef (Size) #declare Size = 1; #end\nsphere { <0, 1, 0>, Size brdf lambert { } }");
   const std::string scene = folder.write("a.scene", text);
   const std::string a = folder / "a.exr", b = folder / "b.exr", c = folder / "c.exr";
-  REQUIRE(vestige({scene, "-o", a, "--spp", "2"}).exit == 0);
-  REQUIRE(vestige({scene, "-o", b, "--spp", "2", "-D", "Size=1"}).exit == 0);
-  REQUIRE(vestige({scene, "-o", c, "--spp", "2", "-DSize=0.5"}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", a, "--spp", "2"}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", b, "--spp", "2", "-D", "Size=1"}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", c, "--spp", "2", "-DSize=0.5"}).exit == 0);
   CHECK(rmse(a, b) == 0);
   CHECK(rmse(a, c) > 0.01);
 }
@@ -84,8 +84,8 @@ TEST_CASE("-D reaches the scene, which keeps its own value otherwise", "[app]") 
 TEST_CASE("size and crop", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
-  const Run r = vestige({scene, "-o", folder / "a.exr", "--spp", "1", "--width", "40", "--height",
-                         "20", "--crop", "0.25,0,0.75,0.5", "--stats", "-"});
+  const Run r = runVestige({scene, "-o", folder / "a.exr", "--spp", "1", "--width", "40",
+                            "--height", "20", "--crop", "0.25,0,0.75,0.5", "--stats", "-"});
   REQUIRE(r.exit == 0);
   const json stats = json::parse(r.out);
   CHECK(stats.at("width") == 20);
@@ -96,13 +96,13 @@ TEST_CASE("the crop shows what the whole picture shows there", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string full = folder / "f.exr", part = folder / "p.exr";
-  REQUIRE(vestige({scene, "-o", full, "--spp", "1"}).exit == 0);
-  REQUIRE(vestige({scene, "-o", part, "--spp", "1", "--crop", "0,0,1,1"}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", full, "--spp", "1"}).exit == 0);
+  REQUIRE(runVestige({scene, "-o", part, "--spp", "1", "--crop", "0,0,1,1"}).exit == 0);
   CHECK(rmse(full, part) == 0);
-  const Run r = vestige({"compare", full, full, "-o", folder / "d.png"});
+  const Run r = runVestige({"compare", full, full, "-o", folder / "d.png"});
   CHECK(r.exit == 0);
-  REQUIRE(vestige({scene, "-o", part, "--spp", "1", "--crop", "0,0,0.5,1"}).exit == 0);
-  const Run sizes = vestige({"compare", part, full});
+  REQUIRE(runVestige({scene, "-o", part, "--spp", "1", "--crop", "0,0,0.5,1"}).exit == 0);
+  const Run sizes = runVestige({"compare", part, full});
   CHECK(sizes.exit == 2);
   CHECK_THAT(sizes.err, containsText("8 x 16") && containsText("16 x 16"));
 }
@@ -111,14 +111,14 @@ TEST_CASE("AOVs go into EXR, and a PNG alone is warned about", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string exr = folder / "a.exr";
-  const Run r = vestige({scene, "-o", exr, "--spp", "1", "--aov", "all"});
+  const Run r = runVestige({scene, "-o", exr, "--spp", "1", "--aov", "all"});
   CHECK(r.exit == 0);
   std::ifstream file(exr, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   for (const char* word : {"normal.X", "albedo.R", "depth.Z", "position.X", "uv.U", "samples",
                            "vestige:scene_hash", "vestige:version", "vestige:samples"})
     CHECK(bytes.find(word) != std::string::npos);
-  const Run png = vestige({scene, "-o", folder / "a.png", "--spp", "1", "--aov", "normal"});
+  const Run png = runVestige({scene, "-o", folder / "a.png", "--spp", "1", "--aov", "normal"});
   CHECK(png.exit == 0);
   CHECK_THAT(png.err, containsText("warning: PNG and JPEG keep colour only"));
 }
@@ -127,8 +127,8 @@ TEST_CASE("statistics count what was done", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string file = folder / "s.json";
-  const Run r = vestige({scene, "-o", folder / "a.png", "--spp", "3", "--threads", "2", "--stats",
-                         file, "--result-line"});
+  const Run r = runVestige({scene, "-o", folder / "a.png", "--spp", "3", "--threads", "2",
+                            "--stats", file, "--result-line"});
   REQUIRE(r.exit == 0);
   std::ifstream in(file);
   const json s = json::parse(in);
@@ -159,7 +159,7 @@ TEST_CASE("clamp cuts indirect light down, and says so", "[app]") {
                          "sphere { <0, 2.5, 0>, 0.5  emission rgb 50 }\n"
                          "sphere { <0.8, 0.6, 0>, 0.6  brdf mirror { } }\n"
                          "plane { <0, 1, 0>, 0  brdf lambert { diffuse rgb 0.5 } }\n");
-    const Run r = vestige({scene, "-o", folder / (name + ".exr"), "--stats", folder / "s.json"});
+    const Run r = runVestige({scene, "-o", folder / (name + ".exr"), "--stats", folder / "s.json"});
     INFO(r.err);
     REQUIRE(r.exit == 0);
     std::ifstream in(folder / "s.json");
@@ -172,7 +172,7 @@ TEST_CASE("clamp cuts indirect light down, and says so", "[app]") {
   CHECK(rendered("2", "direct") == 0);
   CHECK(rendered("2  clamp 0.001", "direct_cut") == 0);
   const auto mean = [&](const std::string& a, const std::string& b) {
-    const Run r = vestige({"compare", "--json", folder / (a + ".exr"), folder / (b + ".exr")});
+    const Run r = runVestige({"compare", "--json", folder / (a + ".exr"), folder / (b + ".exr")});
     INFO(r.err);
     return json::parse(r.out);
   };
@@ -184,7 +184,7 @@ TEST_CASE("progress as JSON is one object a line and ends with what was written"
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string png = folder / "a.png";
-  const Run r = vestige({scene, "-o", png, "--time", "1s", "--progress", "json"});
+  const Run r = runVestige({scene, "-o", png, "--time", "1s", "--progress", "json"});
   REQUIRE(r.exit == 0);
   const std::vector<json> lines = objects(r.out);
   REQUIRE(lines.size() >= 3);
@@ -198,8 +198,8 @@ TEST_CASE("--noise says what it came to", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string file = folder / "s.json";
-  const Run r = vestige({scene, "-o", folder / "a.png", "--noise", "0.1", "--width", "64",
-                         "--stats", file, "--result-line"});
+  const Run r = runVestige({scene, "-o", folder / "a.png", "--noise", "0.1", "--width", "64",
+                            "--stats", file, "--result-line"});
   INFO(r.err);
   REQUIRE(r.exit == 0);
   CHECK_THAT(r.err, containsText("16 to ") && containsText("100 % of the pixels quiet"));
@@ -221,11 +221,12 @@ TEST_CASE("--noise: --spp and --time end it too, and progress tells how much is 
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string png = folder / "a.png";
-  const Run few = vestige({scene, "-o", png, "--noise", "0.0001", "--spp", "20", "--stats", "-"});
+  const Run few =
+      runVestige({scene, "-o", png, "--noise", "0.0001", "--spp", "20", "--stats", "-"});
   CHECK(json::parse(few.out).at("samples_most") == 20);
   CHECK(json::parse(few.out).at("quiet_pixels") < 256);
   const Run r =
-      vestige({scene, "-o", png, "--noise", "0.0001", "--time", "1s", "--progress", "json"});
+      runVestige({scene, "-o", png, "--noise", "0.0001", "--time", "1s", "--progress", "json"});
   REQUIRE(r.exit == 0);
   const std::vector<json> lines = objects(r.out);
   REQUIRE(lines.size() >= 3);
@@ -237,7 +238,7 @@ TEST_CASE("--noise: --spp and --time end it too, and progress tells how much is 
 TEST_CASE("--time stops in time", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
-  const Run r = vestige({scene, "-o", folder / "a.png", "--time", "1s", "--spp", "100000000"});
+  const Run r = runVestige({scene, "-o", folder / "a.png", "--time", "1s", "--spp", "100000000"});
   CHECK(r.exit == 0);
   CHECK(r.seconds > 0.9);
   CHECK(r.seconds < 5);
@@ -251,8 +252,8 @@ TEST_CASE("an interrupted render keeps what is done", "[app]") {
   const std::vector<std::string> spp = {"--spp", "100000000"}, noise = {"--noise", "0.0001"};
   for (const auto& [signal, until] : {std::pair{2, spp}, {15, spp}, {2, noise}}) {
     const Run r =
-        vestige({scene, "-o", exr, until[0], until[1], "--progress", "json"},
-                {.folder = {}, .interruptAt = "\"rendering\"", .interruptSignal = signal});
+        runVestige({scene, "-o", exr, until[0], until[1], "--progress", "json"},
+                   {.folder = {}, .interruptAt = "\"rendering\"", .interruptSignal = signal});
     INFO(r.err);
     CHECK(r.exit == 130);
     CHECK(looksLikePicture(exr));
@@ -273,13 +274,13 @@ TEST_CASE("an unwritable output is found before rendering", "[app]") {
       {folder / "a", 2},
   };
   for (const auto& [file, code] : cases) {
-    const Run r = vestige({scene, "-o", file, "--spp", "1000000000"}, {.patience = 20});
+    const Run r = runVestige({scene, "-o", file, "--spp", "1000000000"}, {.patience = 20});
     INFO(file << ": " << r.err);
     CHECK(r.exit == code);
     CHECK(r.seconds < 5);
     CHECK_THAT(r.err, containsText(file));
   }
-  const Run stats = vestige({scene, "-o", folder / "a.png", "--stats", folder / "no/s.json"});
+  const Run stats = runVestige({scene, "-o", folder / "a.png", "--stats", folder / "no/s.json"});
   CHECK(stats.exit == 3);
   CHECK(folder.names().size() == 1);
 }
@@ -288,8 +289,8 @@ TEST_CASE("an unknown view is found before rendering", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const Run r =
-      vestige({scene, "-o", folder / "a.png", "--view", "Fish eye", "--spp", "1000000000"},
-              {.patience = 20});
+      runVestige({scene, "-o", folder / "a.png", "--view", "Fish eye", "--spp", "1000000000"},
+                 {.patience = 20});
   INFO(r.err);
   CHECK(r.exit == 2);
   CHECK_THAT(r.err, containsText("Fish eye"));
@@ -300,10 +301,10 @@ TEST_CASE("a full disk is told, and leaves nothing half-written", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
   const std::string exr = folder / "a.exr";
-  const Run r =
-      vestige({scene, "-o", exr, "--spp", "1", "--width", "200", "--height", "200"},
-              {.variables = {{"TMPDIR", folder.path().string()}, {"HOME", folder.path().string()}},
-               .fileSizeLimit = 8192});
+  const Run r = runVestige(
+      {scene, "-o", exr, "--spp", "1", "--width", "200", "--height", "200"},
+      {.variables = {{"TMPDIR", folder.path().string()}, {"HOME", folder.path().string()}},
+       .fileSizeLimit = 8192});
   INFO(r.err);
   CHECK(r.exit == 3);
   CHECK_THAT(r.err, containsText("error") && containsText(exr));
@@ -313,9 +314,9 @@ TEST_CASE("a full disk is told, and leaves nothing half-written", "[app]") {
 TEST_CASE("one output that fails does not take the other with it", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
-  const Run r = vestige({scene, "-o", folder / "a.exr", "-o", folder / "a.jpg", "--spp", "1",
-                         "--width", "128", "--height", "128"},
-                        {.fileSizeLimit = 16384});
+  const Run r = runVestige({scene, "-o", folder / "a.exr", "-o", folder / "a.jpg", "--spp", "1",
+                            "--width", "128", "--height", "128"},
+                           {.fileSizeLimit = 16384});
   INFO(r.err);
   CHECK(r.exit == 3);
   CHECK_THAT(r.err, containsText("a.exr") && containsText("wrote " + folder / "a.jpg"));
@@ -327,8 +328,8 @@ TEST_CASE("one output that fails does not take the other with it", "[app]") {
 TEST_CASE("a picture that does not fit into memory is the machine's fault", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
-  const Run r = vestige({scene, "-o", folder / "a.exr", "--width", "60000", "--height", "60000"},
-                        {.memoryLimit = 4L << 30});
+  const Run r = runVestige({scene, "-o", folder / "a.exr", "--width", "60000", "--height", "60000"},
+                           {.memoryLimit = 4L << 30});
   INFO(r.err);
   CHECK(r.exit == 3);
   CHECK_THAT(r.err, containsText("out of memory"));

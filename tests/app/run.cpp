@@ -59,7 +59,7 @@ double now() {
 
 }  // namespace
 
-Run vestige(const std::vector<std::string>& arguments, const Setup& given) {
+Run runVestige(const std::vector<std::string>& arguments, const Setup& given) {
   const Folder own;
   Setup setup = given;
   if (setup.folder.empty()) setup.folder = own.path();

@@ -27,7 +27,7 @@ struct Setup {
   std::string program = VESTIGE_BINARY;
 };
 
-Run vestige(const std::vector<std::string>& arguments, const Setup& setup = {});
+Run runVestige(const std::vector<std::string>& arguments, const Setup& setup = {});
 
 /// A new folder that goes away with its contents.
 class Folder {

@@ -42,7 +42,7 @@ Rendered render(const Folder& folder, const std::string& scene, std::vector<std:
   Setup setup;
   setup.variables = {{"VESTIGE_CACHE", folder / "cache"}};
   setup.fileSizeLimit = fileSizeLimit;
-  Rendered r{vestige(line, setup), contents(folder / "a.hdr"), {}};
+  Rendered r{runVestige(line, setup), contents(folder / "a.hdr"), {}};
   INFO(r.run.err);
   REQUIRE(r.run.exit == 0);
   r.stats = Json::parse(contents(folder / "stats.json"));
@@ -80,14 +80,14 @@ TEST_CASE("--texture-memory refuses what is no size", "[app]") {
   const std::string scene = texturedScene(folder);
   for (const char* size : {"much", "-1", "2X", "2GB", "1.5", "G", "1e9", "nan", "2 G", "+1G",
                            "1..5G", "99999999999G", "0x10"}) {
-    const Run r =
-        vestige({"render", scene, "-o", folder / "a.hdr", std::string("--texture-memory=") + size});
+    const Run r = runVestige(
+        {"render", scene, "-o", folder / "a.hdr", std::string("--texture-memory=") + size});
     INFO(size << '\n' << r.err);
     CHECK(r.exit == 2);
     CHECK_THAT(r.err, containsText("--texture-memory wants a size as 512M, 2G") &&
                           containsText("found '" + std::string(size) + "'"));
   }
-  CHECK_THAT(vestige({"render", "--help"}).out, containsText("--texture-memory SIZE"));
+  CHECK_THAT(runVestige({"render", "--help"}).out, containsText("--texture-memory SIZE"));
 }
 
 TEST_CASE("a full disk costs memory, not the picture", "[app]") {

@@ -14,8 +14,8 @@ struct Mistake {
 };
 
 Run check(const Folder& folder, const std::string& text) {
-  return vestige({"check", folder.write("a.scene", text)},
-                 {.folder = folder.path(), .patience = 20});
+  return runVestige({"check", folder.write("a.scene", text)},
+                    {.folder = folder.path(), .patience = 20});
 }
 
 /// A header without end, a face whose vertex does not exist, a file cut short, ...
@@ -87,7 +87,7 @@ TEST_CASE("a scale of 0 is taken as 1 with a warning, as POV-Ray does", "[app]")
   const Run r = check(folder, smallScene("sphere { 0, 1 scale <1, 0, 1> }"));
   CHECK(r.exit == 0);
   CHECK_THAT(r.err, containsText("a.scene:5:") && containsText("warning: "));
-  CHECK(vestige({"check", folder / "a.scene", "--werror"}).exit == 1);
+  CHECK(runVestige({"check", folder / "a.scene", "--werror"}).exit == 1);
 }
 
 TEST_CASE("a camera that looks at itself is refused", "[app]") {
@@ -102,12 +102,12 @@ TEST_CASE("an empty scene is black with a warning, one without camera an error",
   const Folder folder;
   const std::string empty = folder.write(
       "a.scene", "camera pinhole { location <0, 0, -1> look_at 0 }\nfilm { resolution <4, 4> }");
-  const Run r = vestige({empty, "-o", folder / "a.png", "--spp", "1"});
+  const Run r = runVestige({empty, "-o", folder / "a.png", "--spp", "1"});
   INFO(r.err);
   CHECK(r.exit == 0);
   CHECK_THAT(r.err, containsText("warning") && containsText("black") && containsText("1 warning"));
   CHECK(looksLikePicture(folder / "a.png"));
-  CHECK(vestige({empty, "-o", folder / "b.png", "--spp", "1", "--werror"}).exit == 1);
+  CHECK(runVestige({empty, "-o", folder / "b.png", "--spp", "1", "--werror"}).exit == 1);
   CHECK_FALSE(std::filesystem::exists(folder / "b.png"));
   const Run blind = check(folder, "");
   CHECK(blind.exit == 1);
@@ -118,7 +118,7 @@ TEST_CASE("several mistakes come in one run and render refuses them too", "[app]
   const Folder folder;
   const std::string scene = folder.write(
       "a.scene", smallScene("sphere { 0, 1 brdf phong { exponant 3 } }\nsphere { 0, \"x\" }"));
-  const Run r = vestige({"render", scene, "-o", folder / "a.png"});
+  const Run r = runVestige({"render", scene, "-o", folder / "a.png"});
   CHECK(r.exit == 1);
   CHECK_THAT(r.err, containsText("a.scene:5:") && containsText("a.scene:6:"));
   CHECK_THAT(r.err, containsText("2 errors"));
@@ -129,7 +129,7 @@ TEST_CASE("check --json gives places to editors", "[app]") {
   const Folder folder;
   const std::string scene =
       folder.write("a.scene", smallScene("sphere { 0, 1 brdf phong { exponant 3 } }"));
-  const Run r = vestige({"check", scene, "--json"});
+  const Run r = runVestige({"check", scene, "--json"});
   CHECK(r.exit == 1);
   const auto report = nlohmann::json::parse(r.out);
   CHECK(report.at("errors") == 1);
@@ -148,17 +148,17 @@ TEST_CASE("a scene without mistakes passes; --syntax opens no file", "[app]") {
   CHECK(fine.exit == 0);
   CHECK(fine.err == "");
   const std::string scene = folder.write("b.scene", smallScene("mesh { \"nowhere.obj\" }"));
-  CHECK(vestige({"check", scene}).exit == 1);
-  CHECK(vestige({"check", scene, "--syntax"}).exit == 0);
+  CHECK(runVestige({"check", scene}).exit == 1);
+  CHECK(runVestige({"check", scene, "--syntax"}).exit == 0);
 }
 
 TEST_CASE("limits end hostile scenes, and name their flag", "[app]") {
   const Folder folder;
   const std::string scene = folder.write(
       "a.scene", smallScene("#declare I = 0; #while (I < 200000) #declare I = I + 1; #end"));
-  const Run r = vestige({"check", scene, "--max-loop-iterations", "1000"});
+  const Run r = runVestige({"check", scene, "--max-loop-iterations", "1000"});
   INFO(r.err);
   CHECK(r.exit == 1);
   CHECK_THAT(r.err, containsText("--max-loop-iterations"));
-  CHECK(vestige({"check", scene}).exit == 0);
+  CHECK(runVestige({"check", scene}).exit == 0);
 }

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// The renderer behind the window, without a window.
+#include "app/window/preview.h"
+
+#include <chrono>
+#include <fstream>
+#include <random>
+
+#include "app/run.h"
+#include "app/window/footprint_region.h"
+#include "support/catch.h"
+
+using namespace vestige;
+using namespace vestige::app;
+
+namespace {
+
+constexpr double kPatience = 60;  // seconds; what is waited for takes a fraction of one
+
+/// A scene file, its preview, and how often that called.
+struct Bench {
+  explicit Bench(const std::string& text) : file(folder.write("a.scene", text)) {
+    SceneInput input;
+    input.file = file;
+    RenderOptions options;
+    options.threads = 2;
+    preview = std::make_unique<Preview>(input, options, [this] { ++calls; });
+  }
+  template <class Condition>
+  bool comes(const Condition& condition) const {
+    const double start = secondsNow();
+    while (!condition()) {
+      if (secondsNow() - start > kPatience) return false;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return true;
+  }
+  bool isFinished(int samples) const {
+    const auto s = preview->snapshot();
+    return preview->status().phase == "finished" && s && s->samples == samples && s->scale == 1 &&
+           s->wish.isSamePicture(wish);
+  }
+  void want() { preview->want(wish); }
+  void rewrite(const std::string& text) {
+    std::ofstream(file) << text;
+    ++wish.reload;
+    want();
+  }
+
+  Folder folder;
+  std::string file;
+  std::atomic<int> calls{0};
+  Wish wish;
+  std::unique_ptr<Preview> preview;
+};
+
+std::string scene(const std::string& colour, int samples = 4, const std::string& more = "") {
+  return "camera pinhole { location <0, 1, -4> look_at <0, 0.7, 0> }\n"
+         "film { resolution <160, 120> }\n"
+         "integrator path { samples " +
+         std::to_string(samples) +
+         " }\n"
+         "light environment { radiance rgb 1 }\n"
+         "plane { y, 0 brdf lambert { diffuse pigment checker { rgb 0.2, rgb 0.8 } } }\n"
+         "sphere { <0, 0.7, 0>, 0.7 brdf lambert { diffuse rgb " +
+         colour + " } }\n" + more;
+}
+
+/// What `vestige render` would make of it.
+Film::Means rendered(const Bench& b, int samples) {
+  SceneInput input;
+  input.file = b.file;
+  const Registry registry = loadRegistry({});
+  const LoadedScene loaded = loadScene(input, registry, Stage::built);
+  REQUIRE(loaded.scene);
+  Film film = makeFilm(*loaded.scene, 0, 0, nullptr, {});
+  RenderOptions options;
+  options.samples = samples;
+  render(*loaded.scene, film, options);
+  return film.means();
+}
+
+}  // namespace
+
+TEST_CASE("the preview ends at the picture of a render, bit for bit", "[window][preview]") {
+  Bench b(scene("<0.8, 0.1, 0.1>"));
+  REQUIRE(b.comes([&] { return b.isFinished(4); }));
+  CHECK(b.preview->snapshot()->means.pixels == rendered(b, 4).pixels);
+  CHECK(b.calls > 2);
+  SECTION("also when it was stopped on the way, and more samples were asked for") {
+    b.wish.samples = 64;
+    b.want();
+    REQUIRE(b.comes([&] { return b.preview->snapshot()->samples > 4; }));
+    b.wish.isPaused = true;
+    b.want();
+    REQUIRE(b.comes([&] { return b.preview->status().phase == "paused"; }));
+    const int then = b.preview->snapshot()->samples;
+    CHECK(then < 64);
+    b.wish.isPaused = false;
+    b.want();
+    REQUIRE(b.comes([&] { return b.isFinished(64); }));
+    CHECK(b.preview->snapshot()->means.pixels == rendered(b, 64).pixels);
+  }
+  SECTION("and after a change of the text") {
+    b.rewrite(scene("<0.1, 0.1, 0.8>", 2));
+    REQUIRE(b.comes([&] { return b.isFinished(2); }));
+    CHECK(b.preview->snapshot()->means.pixels == rendered(b, 2).pixels);
+  }
+}
+
+TEST_CASE("a broken text keeps the picture and says where", "[window][preview]") {
+  Bench b(scene("<0.8, 0.1, 0.1>"));
+  REQUIRE(b.comes([&] { return b.isFinished(4); }));
+  const auto before = b.preview->snapshot();
+  b.rewrite(scene("<0.8, 0.1, 0.1>", 4, "spher { }\n"));
+  REQUIRE(b.comes([&] { return b.preview->status().isWrong; }));
+  const Status s = b.preview->status();
+  REQUIRE_FALSE(s.complaints.empty());
+  CHECK(s.complaints[0].place.line == 7);
+  CHECK_THAT(s.complaints[0].text, containsText("a.scene:7") && containsText("^"));
+  CHECK(b.preview->snapshot() == before);
+  SECTION("the hand may still move the camera: nothing comes of it, nothing breaks") {
+    ++b.wish.view;
+    b.want();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    CHECK(b.preview->snapshot() == before);
+  }
+  b.rewrite(scene("<0.1, 0.8, 0.1>", 3));
+  REQUIRE(b.comes([&] { return b.isFinished(3); }));
+  CHECK_FALSE(b.preview->status().isWrong);
+  CHECK(b.preview->status().complaints.empty());
+}
+
+TEST_CASE("a text that is broken from the beginning can be mended", "[window][preview]") {
+  Bench b("sphere {");
+  REQUIRE(b.comes([&] { return b.preview->status().isWrong; }));
+  CHECK_FALSE(b.preview->snapshot());
+  b.preview->inspect(1, 1, 0);
+  b.rewrite(scene("<0.1, 0.8, 0.1>", 1));
+  REQUIRE(b.comes([&] { return b.isFinished(1); }));
+}
+
+TEST_CASE("a missing file is among those to watch", "[window][preview]") {
+  Bench b(scene("<0.8, 0.1, 0.1>", 1, "mesh { \"later.obj\" }\n#include \"parts.inc\"\n"));
+  REQUIRE(b.comes([&] { return b.preview->status().isWrong; }));
+  b.folder.write("parts.inc", "\n");
+  ++b.wish.reload;
+  b.want();
+  REQUIRE(b.comes([&] { return b.preview->files().count(b.folder / "later.obj") > 0; }));
+  CHECK(b.preview->files().count(b.folder / "parts.inc") > 0);
+  CHECK(b.preview->files().count(b.file) > 0);
+}
+
+TEST_CASE("paths are told while a long picture is under way", "[window][preview]") {
+  Bench b(scene("<0.8, 0.1, 0.1>", 60000));
+  REQUIRE(b.comes([&] { return b.preview->snapshot() && b.preview->snapshot()->scale == 1; }));
+  b.preview->inspect(80, 60, 3);
+  REQUIRE(b.comes([&] { return b.preview->inspection() != nullptr; }));
+  const auto i = b.preview->inspection();
+  CHECK(b.preview->status().phase == "rendering");
+  CHECK(i->sample == 3);
+  REQUIRE_FALSE(i->path.vertices.empty());
+  const PathVertex& v = i->path.vertices[0];
+  // What is drawn is what was traced.
+  const Region3 r = regionOf(v, {});
+  REQUIRE(int(r.deltas.size()) == v.differentials.size);
+  CHECK(length(cross(r.a, r.b)) ==
+        Approx(length(cross(v.differentials.footprint.dP[0], v.differentials.footprint.dP[1])))
+            .epsilon(1e-3));
+  CHECK(r.area == Approx(v.differentials.area).epsilon(1e-3));
+  // More samples: a smaller region.
+  Reckoning few, many;
+  few.bound = many.bound = Bound::safe;
+  few.samples = 4, many.samples = 400;
+  CHECK(regionOf(v, many).area < regionOf(v, few).area);
+  b.preview->inspect(-1, 5000, 0);  // beside the picture
+  b.preview.reset();                // in the middle of it
+}
+
+TEST_CASE("the particle integrator refines in rounds", "[window][preview]") {
+  Bench b(
+      "camera pinhole { location <0, 1, -4> look_at <0, 0.7, 0> }\n"
+      "film { resolution <40, 30> }\n"
+      "light area { <-1, 3, -1>, <2, 0, 0>, <0, 0, 2> radiance rgb 5 }\n"
+      "quad { <-3, 0, -3>, <6, 0, 0>, <0, 0, 6> }\n"
+      "integrator particle { particles 100000 samples 1 }\n");
+  std::set<std::shared_ptr<const Snapshot>> seen;
+  REQUIRE(b.comes([&] {
+    if (const auto s = b.preview->snapshot()) seen.insert(s);
+    return b.isFinished(1);
+  }));
+  CHECK(seen.size() >= 2);
+  CHECK(b.preview->snapshot()->means.pixels == rendered(b, 1).pixels);
+}
+
+TEST_CASE("hasty wishes neither crash nor starve", "[window][preview]") {
+  Bench b(scene("<0.8, 0.1, 0.1>", 8));
+  std::mt19937 random(7);
+  const std::vector<std::string> integrators = {"", "path", "distributed", "normals", "uv"};
+  for (int i = 0; i < 300; ++i) {
+    switch (random() % 8) {
+      case 0:
+        b.rewrite(random() % 4 ? scene("<0.2, 0.3, 0." + std::to_string(i) + ">", 8) : "sphere {");
+        break;
+      case 1:
+        b.wish.build.integrator = integrators[random() % integrators.size()], ++b.wish.way;
+        break;
+      case 2:
+        b.wish.isPaused = random() % 3 == 0;
+        break;
+      case 3:
+        b.wish.region = std::array<double, 4>{0.1, 0.2, 0.1 + 0.1 * double(random() % 9), 0.9};
+        if (random() % 2) b.wish.region.reset();
+        ++b.wish.picture;
+        break;
+      case 4:
+        b.wish.aovs.clear();
+        if (random() % 2) b.wish.aovs = {Aov(random() % kAovs)};
+        ++b.wish.picture;
+        break;
+      case 5:
+        b.wish.width = int(random() % 300), ++b.wish.picture;
+        break;
+      case 6:
+        b.preview->inspect(int(random() % 200), int(random() % 200), random() % 9);
+        break;
+      default:
+        ++b.wish.view;
+    }
+    b.want();
+    if (random() % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(random() % 20));
+  }
+  b.wish.isPaused = false, b.wish.build.integrator.clear(), ++b.wish.way;
+  b.wish.region.reset(), b.wish.aovs.clear(), b.wish.width = 0, ++b.wish.picture;
+  b.rewrite(scene("<0.2, 0.3, 0.4>", 2));
+  REQUIRE(b.comes([&] { return b.isFinished(2); }));
+  CHECK(b.preview->snapshot()->means.pixels == rendered(b, 2).pixels);
+}

@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window itself, on a display without a screen (Xvfb), with hands from xdotool. VESTIGE_SHOTS
+// names a folder that keeps the screenshots.
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <sstream>
+#include <thread>
+
+#include "app/run.h"
+#include "engine/image/image.h"
+#include "support/catch.h"
+
+using namespace vestige;
+
+namespace {
+
+constexpr double kPatience = 60;
+constexpr int kWide = 1000, kHigh = 700;  ///< of the window
+
+bool has(const char* program) {
+  return std::system(("command -v " + std::string(program) + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+bool canRun() {
+  const std::string view = std::string(VESTIGE_BINARY) + "-view";
+  if (has("Xvfb") && has("xdotool") && access(view.c_str(), X_OK) == 0) return true;
+  WARN("not run: it needs vestige-view, Xvfb and xdotool, which ./test installs");
+  return false;
+}
+
+/// A child process that ends with its object.
+class Child {
+ public:
+  Child(const std::vector<std::string>& words, const std::string& log, const std::string& folder) {
+    pid_ = fork();
+    if (pid_ != 0) return;
+    std::vector<char*> arguments;
+    for (const std::string& w : words) arguments.push_back(const_cast<char*>(w.c_str()));
+    arguments.push_back(nullptr);
+    if (!std::freopen(log.c_str(), "w", stdout) || chdir(folder.c_str()) != 0) _exit(126);
+    dup2(1, 2);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  ~Child() {
+    if (isAlive()) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  bool isAlive() {
+    if (!ended_ && waitpid(pid_, &status_, WNOHANG) == pid_) ended_ = true;
+    return !ended_;
+  }
+  int exitCode() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : -WTERMSIG(status_); }
+  pid_t pid() const { return pid_; }
+
+ private:
+  pid_t pid_ = 0;
+  int status_ = 0;
+  bool ended_ = false;
+};
+
+std::string contents(const std::string& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string output(const std::string& command) {
+  std::string text;
+  if (FILE* pipe = popen(command.c_str(), "r")) {
+    char piece[256];
+    while (std::fgets(piece, sizeof piece, pipe)) text += piece;
+    pclose(pipe);
+  }
+  return text;
+}
+
+class Session {
+ public:
+  /// Opens a scene of this text, or the picture `opened`.
+  Session(const std::string& text, const std::vector<std::string>& options = {},
+          const std::string& opened = "")
+      : file_(opened.empty() ? folder_.write("a.scene", text) : opened),
+        stem_(std::filesystem::path(file_).stem().string()),
+        log_(folder_ / "log") {
+    for (int number = 90; number < 130 && display_.empty(); ++number) {
+      const std::string name = std::string(":").append(std::to_string(number));
+      if (access(("/tmp/.X" + std::to_string(number) + "-lock").c_str(), F_OK) == 0) continue;
+      server_ =
+          std::make_unique<Child>(std::vector<std::string>{"Xvfb", name, "-screen", "0",
+                                                           "1280x800x24", "+extension", "GLX"},
+                                  folder_ / "xvfb", folder_.path().string());
+      for (int i = 0; i < 100 && server_->isAlive() && display_.empty(); ++i) {
+        pause(0.05);
+        if (output("DISPLAY=" + name + " xdotool getdisplaygeometry 2>/dev/null") != "")
+          display_ = name;
+      }
+    }
+    REQUIRE(display_ != "");
+    setenv("DISPLAY", display_.c_str(), 1);
+    setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
+    std::vector<std::string> words = {std::string(VESTIGE_BINARY),
+                                      "view",
+                                      file_,
+                                      "--events",
+                                      "--window-width",
+                                      std::to_string(kWide),
+                                      "--window-height",
+                                      std::to_string(kHigh)};
+    words.insert(words.end(), options.begin(), options.end());
+    view_ = std::make_unique<Child>(words, log_, folder_.path().string());
+    for (int i = 0; i < 200 && id_.empty(); ++i) {
+      pause(0.05);
+      id_ = output("xdotool search --name 'vestige$' 2>/dev/null");
+      id_.erase(std::remove(id_.begin(), id_.end(), '\n'), id_.end());
+    }
+    INFO(contents(log_));
+    REQUIRE(id_ != "");
+  }
+
+  static void pause(double seconds) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  }
+  void hand(const std::string& actions) {
+    INFO("xdotool " << actions);
+    CHECK(std::system(("xdotool " + actions).c_str()) == 0);
+  }
+  void key(const std::string& name) { hand("key --window " + id_ + ' ' + name); }
+  void move(double x, double y) {
+    hand("mousemove --window " + id_ + ' ' + std::to_string(int(x)) + ' ' + std::to_string(int(y)));
+    pause(0.1);  // a frame, so that the window knows where the mouse is
+  }
+  void click(double x, double y) { move(x, y), hand("click 1"), pause(0.1); }
+  void drag(double x0, double y0, double x1, double y1) {
+    move(x0, y0), hand("mousedown 1");
+    for (int i = 1; i <= 6; ++i) move(x0 + (x1 - x0) * i / 6, y0 + (y1 - y0) * i / 6);
+    hand("mouseup 1"), pause(0.1);
+  }
+  void write(const std::string& text) { folder_.write("a.scene", text); }
+
+  /// Waits until what happened since the last call holds these words.
+  void comes(const std::string& words) {
+    INFO("waiting for '" << words << "' in\n" << contents(log_));
+    for (double waited = 0; waited < kPatience; waited += 0.02) {
+      const std::string log = contents(log_);
+      if (const std::size_t at = log.find(words, seen_); at != log.npos) {
+        seen_ = at + words.size();
+        return;
+      }
+      REQUIRE(view_->isAlive());
+      pause(0.02);
+    }
+    FAIL("it never came");
+  }
+  void forget() { seen_ = contents(log_).size(); }
+
+  /// What the window shows, kept under `name`.
+  Image shot(const std::string& name) {
+    pause(0.3);  // what was asked for is drawn
+    forget();
+    key("F12");
+    comes("wrote " + stem_ + "-window.png");
+    std::string error;
+    const std::string file = folder_ / (stem_ + "-window.png");
+    const Image image = readImage(file, error);
+    REQUIRE(image.width == kWide);
+    if (const char* kept = std::getenv("VESTIGE_SHOTS"))
+      std::filesystem::copy_file(file, std::filesystem::path(kept) / (name + ".png"),
+                                 std::filesystem::copy_options::overwrite_existing);
+    return image;
+  }
+  Image saved() {
+    forget();
+    key("p");
+    comes("wrote " + stem_ + "-view.png");
+    std::string error;
+    return readImage(folder_ / (stem_ + "-view.png"), error);
+  }
+  int close() {
+    key("ctrl+q");
+    for (int i = 0; i < 500 && view_->isAlive(); ++i) pause(0.02);
+    return view_->isAlive() ? kHung : view_->exitCode();
+  }
+  bool isAlive() { return view_->isAlive(); }
+  pid_t pid() const { return view_->pid(); }
+  std::string log() const { return contents(log_); }
+  const Folder& folder() const { return folder_; }
+  const std::string& id() const { return id_; }
+
+ private:
+  Folder folder_;
+  std::string file_, stem_, log_, display_, id_;
+  std::size_t seen_ = 0;
+  std::unique_ptr<Child> server_, view_;
+};
+
+std::string scene(const std::string& colour, const std::string& more = "") {
+  return "camera pinhole { location <0, 1.2, -4> look_at <0, 0.8, 0> angle 50 }\n"
+         "film { resolution <320, 240> }\n"
+         "integrator path { samples 16 depth 6 }\n"
+         "light environment { radiance rgb 0.7 }\n"
+         "light area { <-1, 3, -2>, <2, 0, 0>, <0, 0, 2> radiance rgb 6 }\n"
+         "plane { y, 0 brdf lambert { diffuse pigment checker { rgb 0.2, rgb 0.8 scale 0.4 } } }\n"
+         "sphere { <-0.8, 0.7, 0.5>, 0.7 brdf lambert { diffuse rgb " +
+         colour +
+         " } }\n"
+         "sphere { <0.9, 0.7, -0.2>, 0.7 brdf glass { } }\n" +
+         more;
+}
+
+/// Where the sheet lies with hidden panels; as Window::fit() has it.
+struct Place {
+  double left, top, zoom;
+};
+Place placeOf(int width, int height, double panel = 0, double bar = 0) {
+  const double wide = kWide - panel - 16, high = kHigh - bar - 16;
+  double zoom = std::min(wide / width, high / height);
+  if (zoom >= 1 && zoom < 2) zoom = 1;
+  if (zoom > 2) zoom = std::floor(zoom);
+  return {std::round(8 + (wide - zoom * width) / 2), std::round(8 + (high - zoom * height) / 2),
+          zoom};
+}
+constexpr double kPanel = 350, kBar = 26;
+
+const float* at(const Image& image, const Place& p, double x, double y) {
+  return image.at(int(p.left + p.zoom * x), int(p.top + p.zoom * y));
+}
+
+double difference(const Image& a, const Image& b, int x0, int y0, int x1, int y1) {
+  double sum = 0;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x)
+      for (int c = 0; c < 3; ++c) sum += std::abs(double(a.at(x, y)[c]) - double(b.at(x, y)[c]));
+  return sum / double((x1 - x0) * (y1 - y0) * 3);
+}
+
+}  // namespace
+
+TEST_CASE("a session: look, turn, change the text, break it, mend it, inspect, save", "[window]") {
+  if (!canRun()) return;
+  Session s(scene("<0.8, 0.1, 0.1>"));
+  s.comes("picture path");
+  s.comes("finished");
+  const Place p = placeOf(320, 240, kPanel, kBar);
+  const Image first = s.shot("1-first");
+  const float* red = at(first, p, 100, 110);
+  CHECK(red[0] > 2 * red[2]);
+
+  s.drag(p.left + 200, p.top + 60, p.left + 320, p.top + 60);
+  s.comes("finished");
+  const Image turned = s.shot("2-orbit");
+  CHECK(difference(first, turned, 20, 20, 600, 600) > 0.02);
+  s.key("Home");
+  s.comes("finished");
+
+  s.write(scene("<0.1, 0.1, 0.8>"));
+  s.comes("picture path");
+  s.comes("finished");
+  const Image changed = s.shot("3-changed");
+  const float* blue = at(changed, p, 100, 110);
+  CHECK(blue[2] > 2 * blue[0]);
+
+  s.write(scene("<0.1, 0.1, 0.8>", "sphre { }\n"));
+  s.comes("wrong");
+  const Image broken = s.shot("4-broken");
+  const float* still = at(broken, p, 100, 200);  // under the words
+  CHECK(still[2] == Approx(at(changed, p, 100, 200)[2]).margin(0.01));
+  CHECK(difference(changed, broken, 20, 20, 400, 100) > 0.02);  // the words
+  s.write(scene("<0.1, 0.8, 0.1>"));
+  s.comes("picture path");
+  s.comes("finished");
+  const Image mended = s.shot("5-mended");
+  CHECK(at(mended, p, 100, 110)[1] > 2 * at(mended, p, 100, 110)[0]);
+
+  s.click(p.left + p.zoom * 215, p.top + p.zoom * 118);  // glass
+  const Image inspected = s.shot("6-inspected");
+  CHECK(difference(mended, inspected, 20, 20, 600, 600) > 1e-4);     // the path over the picture
+  CHECK(difference(mended, inspected, 660, 420, 990, 660) > 0.005);  // its numbers
+
+  const Image picture = s.saved();
+  CHECK(picture.width == 320);
+  CHECK(s.close() == 0);
+  CHECK_THAT(s.log(), containsText("times for another picture: median"));
+}
+
+TEST_CASE("what the window shows is what the colour library says", "[window]") {
+  if (!canRun()) return;
+  for (const char* view : {"Standard", "ACES 1.0 SDR"}) {
+    Session s(scene("<0.8, 0.1, 0.1>"), {"--view", view, "--exposure", "0.7"});
+    s.comes("finished");
+    s.key("Tab");
+    const Image seen = s.shot(std::string("view-") + view[0]), saved = s.saved();
+    REQUIRE(saved.width == 320);
+    const Place p = placeOf(320, 240);
+    REQUIRE(p.zoom == 2);
+    double worst = 0;
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x)
+        for (int c = 0; c < 3; ++c)
+          worst = std::max(worst, std::abs(double(at(seen, p, x + 0.5, y + 0.5)[c]) -
+                                           double(saved.at(x, y)[c])));
+    CHECK(worst * 255 < 1.5);  // one code value
+    CHECK(s.close() == 0);
+  }
+}
+
+TEST_CASE("particles: elements refine in the window", "[window]") {
+  if (!canRun()) return;
+  Session s(
+      "camera pinhole { location <0, 1.5, -4> look_at <0, 0.5, 0> }\n"
+      "film { resolution <240, 180> }\n"
+      "light area { <-1, 3, -1>, <2, 0, 0>, <0, 0, 2> radiance rgb 5 }\n"
+      "quad { <-3, 0, -3>, <6, 0, 0>, <0, 0, 6> }\n"
+      "sphere { <0, 0.6, 0>, 0.6 }\n"
+      "integrator path { samples 4 }\n",
+      {"--integrator", "particle", "--spp", "1"});
+  s.comes("picture particle");
+  s.comes("finished");
+  s.shot("7-particles");
+  CHECK_THAT(s.log(), containsText("preparing"));
+  CHECK(s.close() == 0);
+}
+
+TEST_CASE("without a display there is one clear sentence", "[window]") {
+  if (!canRun()) return;
+  const Folder folder;
+  const std::string file = folder.write("a.scene", scene("1"));
+  const Run r =
+      runVestige({"view", file}, {.variables = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}}});
+  CHECK(r.exit == 3);
+  CHECK_THAT(r.err, containsText("no window can be opened") && containsText("vestige render"));
+  CHECK(runVestige({"view", folder / "none.scene"}).exit == 2);
+  CHECK(runVestige({"view", "--help"}).exit == 0);
+  CHECK(runVestige({"view", file, "--integrator", "none"}).exit == 2);
+}
+
+TEST_CASE("pictures from files are shown, and followed", "[window]") {
+  if (!canRun()) return;
+  const Folder folder;
+  Image image;
+  image.width = 64, image.height = 48, image.channels = {"R", "G", "B"};
+  image.pixels.assign(64 * 48 * 3, 0.05f);
+  std::string error;
+  REQUIRE(writeImage(folder / "p.exr", image, {}, error));
+  Session s("", {}, folder / "p.exr");
+  const Place p = placeOf(64, 48, kPanel, kBar);
+  CHECK(at(s.shot("8-picture"), p, 32, 24)[1] == Approx(63 / 255.0).margin(0.01));  // sRGB of 0.05
+  image.pixels.assign(64 * 48 * 3, 0.5f);
+  REQUIRE(writeImage(folder / "p.exr", image, {}, error));
+  Session::pause(1);
+  CHECK(at(s.shot("9-picture"), p, 32, 24)[1] == Approx(188 / 255.0).margin(0.01));
+  CHECK(s.close() == 0);
+}
+
+TEST_CASE("five hundred random inputs", "[window][slow]") {
+  if (!canRun()) return;
+  Session s(scene("<0.8, 0.1, 0.1>"));
+  s.comes("picture path");
+  std::mt19937 random(3);
+  const std::vector<std::string> keys = {
+      "w", "a", "s",   "d",     "e",    "x",      "f",     "r",      "c",  "z",   "b", "v",
+      "h", "p", "Tab", "space", "Home", "Escape", "comma", "period", "F5", "F12", "0", "1"};
+  for (int i = 0; i < 500; ++i) {
+    const int x = int(random() % kWide), y = int(random() % kHigh);
+    switch (random() % 5) {
+      case 0:
+        s.hand("mousemove --window " + s.id() + ' ' + std::to_string(x) + ' ' + std::to_string(y) +
+               " click " + std::to_string(1 + random() % 5));
+        break;
+      case 1:
+        s.hand("mousedown " + std::to_string(1 + random() % 3) + " mousemove --window " + s.id() +
+               ' ' + std::to_string(x) + ' ' + std::to_string(y) +
+               " mouseup 1 mouseup 2 mouseup 3");
+        break;
+      case 2:
+        if (random() % 4 == 0) s.write(scene("<0.1, 0." + std::to_string(i) + ", 0.8>"));
+        if (random() % 8 == 0) s.write("sphere {");
+        break;
+      case 3:
+        if (random() % 10 == 0)
+          s.hand("windowsize " + s.id() + ' ' + std::to_string(200 + random() % 900) + ' ' +
+                 std::to_string(100 + random() % 600));
+        break;
+      default:
+        s.key(keys[random() % keys.size()]);
+    }
+    REQUIRE(s.isAlive());
+  }
+  s.key("Escape");
+  CHECK(s.close() == 0);
+}
+
+TEST_CASE("five minutes of reloads and turns keep the memory", "[window][slow]") {
+  if (!canRun()) return;
+  Session s(scene("<0.8, 0.1, 0.1>"));
+  s.comes("picture path");
+  const auto resident = [&] {
+    std::istringstream in(contents("/proc/" + std::to_string(s.pid()) + "/statm"));
+    double all = 0, pages = 0;
+    in >> all >> pages;
+    return pages * double(sysconf(_SC_PAGESIZE)) / 1e6;
+  };
+  const char* minutes = std::getenv("VESTIGE_SOAK_MINUTES");
+  const double seconds = 60 * (minutes ? std::atof(minutes) : 5);
+  double early = 0, late = 0;
+  const auto start = std::chrono::steady_clock::now();
+  const auto elapsed = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  for (int i = 0; elapsed() < seconds; ++i) {
+    s.write(scene("<0.1, 0." + std::to_string(i % 10) + ", 0.8>"));
+    s.drag(100 + i % 7 * 30, 100, 300, 150 + i % 5 * 20);
+    if (i % 10 == 0) s.click(300, 200);
+    // The first third warms up: allocators keep what they once had.
+    (elapsed() < seconds / 3 ? early : late) =
+        std::max(elapsed() < seconds / 3 ? early : late, resident());
+    REQUIRE(s.isAlive());
+  }
+  WARN("resident: " << early << " MB at most in the first third, " << late << " MB after it");
+  CHECK(late < 1.05 * early);
+  CHECK(s.close() == 0);
+}
