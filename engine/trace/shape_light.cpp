@@ -33,11 +33,7 @@ class AnalyticLight final : public SurfaceLight {
   std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override {
     const std::optional<ConeSample> c = cone(from, u);
     if (!c) return SurfaceLight::sample(from, u);
-    const Vec3 eye = place_.toObject.point(from);
-    const std::optional<ShapeHit> hit = shape_->intersect({eye, c->toShape, 0, kInfinity});
-    const Vec3 near = eye + (hit ? hit->t : c->distance) * c->toShape;
-    const SurfacePoint p = place_.world(shape_->surface(near, hit ? hit->part : 0));
-    return seen(from, p, normalize(place_.linear * c->toShape),
+    return seen(from, met(from, *c), normalize(place_.linear * c->toShape),
                 c->distance * length(place_.linear * c->toShape), c->pdf);
   }
 
@@ -55,8 +51,25 @@ class AnalyticLight final : public SurfaceLight {
   }
 
   LightLogGradient logGradient(Vec3 from, Vec2 u) const noexcept override {
-    if (conePdf(from) > 0) return {};  // a direction was drawn, radiance does not depend on it
-    return SurfaceLight::logGradient(from, u);
+    const std::optional<ConeSample> c = cone(from, u);
+    if (!c) return SurfaceLight::logGradient(from, u);
+    // A direction was drawn: only the radiance changes, with the point that it meets [MATH 1.3].
+    const SurfacePoint p = met(from, *c);
+    const Vec3 w = normalize(place_.linear * c->toShape), n = p.geometricNormal;
+    const Real distance = length(p.position - from), cosine = dot(w, n);
+    if (std::abs(cosine) < Real(1e-3)) return {};
+    const LightJacobian turn = sampleDerivatives(from, u);
+    const auto along = [&](Vec3 dFrom, Vec3 dToLight) {
+      const Vec3 moved = dFrom + distance * dToLight;
+      return radianceSlope(p, moved - dot(n, moved) / cosine * w);
+    };
+    LightLogGradient g{{along({}, turn.du.c[0]), along({}, turn.du.c[1])}, {}};
+    for (int k = 0; k < 3; ++k) {
+      Vec3 axis;
+      axis[k] = 1;
+      g.dFrom[k] = along(axis, turn.dFrom * axis);
+    }
+    return g;
   }
 
  private:
@@ -66,6 +79,14 @@ class AnalyticLight final : public SurfaceLight {
   std::optional<ConeSample> cone(Vec3 from, Vec2 u) const noexcept {
     if (!(conePdf(from) > 0)) return std::nullopt;
     return shape_->sampleToward(place_.toObject.point(from), u);
+  }
+
+  /// The point that a ray meets which was drawn by angle; world.
+  SurfacePoint met(Vec3 from, const ConeSample& c) const noexcept {
+    const Vec3 eye = place_.toObject.point(from);
+    const std::optional<ShapeHit> hit = shape_->intersect({eye, c.toShape, 0, kInfinity});
+    const Vec3 near = eye + (hit ? hit->t : c.distance) * c.toShape;
+    return place_.world(shape_->surface(near, hit ? hit->part : 0));
   }
 
   std::optional<AreaSample> draw(Vec2 u) const noexcept override {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/trace/surface_light.h"
 
+#include <vestige/differences.h>
+#include <vestige/footprint/differentials.h>
 #include <vestige/sampling.h>
 
 namespace vestige {
@@ -58,8 +60,24 @@ LightLogGradient SurfaceLight::logGradient(Vec3 from, Vec2 u) const noexcept {
   if (std::abs(cosine) < Real(1e-3)) return {};  // grazing: grows without bound [MATH 3.4]
   // log (n.w / d^2): (dn.w + n.dw) / (n.w) - 2 w.(dP - dV) / d [MATH 1.14]
   const Vec3 slope = (Real(1) / cosine * (n - cosine * w) - Real(2) * w) / distance;  // by dP
-  const auto along = [&](Vec3 dP, Vec3 dN) { return dot(slope, dP) + dot(dN, w) / cosine; };
+  const auto along = [&](Vec3 dP, Vec3 dN) {
+    return dot(slope, dP) + dot(dN, w) / cosine + radianceSlope(a->point, dP);
+  };
   return {{along(a->du.c[0], a->dNdu.c[0]), along(a->du.c[1], a->dNdu.c[1])}, -slope};
+}
+
+Real SurfaceLight::radianceSlope(const SurfacePoint& p, Vec3 dP) const noexcept {
+  const Real here = luminance(radiance_(p));
+  if (!(here > 0)) return 0;
+  SurfaceMotion motion;
+  motion.arrive(p, -p.geometricNormal);
+  const Vec2 dUv = {dot(motion.du, dP), dot(motion.dv, dP)};
+  const auto moved = [&](Real h) -> std::optional<Real> {
+    SurfacePoint q = p;
+    q.position += h * dP, q.uv = q.uv + h * dUv;
+    return luminance(radiance_(q));
+  };
+  return differences::derivative(moved, here, differences::kStep, here) / here;
 }
 
 SurfaceLight::Side SurfaceLight::side(Vec2 u) const noexcept {

@@ -43,6 +43,10 @@ class SurfaceLight : public Light {
   /// A sample of this point as seen from somewhere; `pdf` by solid angle.
   LightSample seen(Vec3 from, const SurfacePoint& p, Vec3 toLight, Real distance, Real pdf) const;
 
+  /// Relative change of the radiance as its point walks along dP on the surface: differences, as a
+  /// pigment has no derivative of its own. 0 where it is even, or black.
+  Real radianceSlope(const SurfacePoint& p, Vec3 dP) const noexcept;
+
  private:
   /// The side a particle leaves by, and what is left of the number that chose it.
   struct Side {

@@ -145,7 +145,7 @@ class Distributed final : public Integrator {
     for (int i = 0; i < lightSamples_; ++i)
       direct += directLight(c, s, x, std::uint32_t(node.edge - 1),
                             node.index * std::uint32_t(lightSamples_) + std::uint32_t(i),
-                            Real(lightSamples_), Real(split_.count));
+                            Real(lightSamples_), Real(split_.count), node.footprint);
     return direct / Real(lightSamples_) + scattered(c, node, s, x, size);
   }
 

@@ -149,9 +149,9 @@ class PathIntegrator final : public Integrator {
 
   Rgb direct(PathContext& c, const Path& path, const Vertex& v) const noexcept {
     const auto vertex = std::uint32_t(path.edge - 1);
-    return clamped(
-        c, path.edge + 1,
-        path.throughput * directLight(c, v.s, v.x, vertex, path.index, 1, Real(path.rays)));
+    return clamped(c, path.edge + 1,
+                   path.throughput * directLight(c, v.s, v.x, vertex, path.index, 1,
+                                                 Real(path.rays), path.footprint));
   }
 
   /// The mean of what comes along several rays from here.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Footprints of whole paths: special cases with an answer of their own, and what must not change
 // them.
+#include "engine/image/image.h"
 #include "support/catch.h"
 #include "support/path_trace.h"
 #include "support/room_of_everything.h"
@@ -56,6 +57,31 @@ struct Igehy {
     dD = eta * dD - (mu * dN + dMu * n);
   }
 };
+
+/// A smooth picture of 16 x 8 texels, none of them black; its file.
+std::string writeWaves(const std::string& folder) {
+  Image image{16, 8, {"R", "G", "B"}, {}, {}};
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 16; ++x)
+      image.pixels.insert(image.pixels.end(), 3,
+                          float(1 + 0.3 * y + 0.5 * std::sin(2 * M_PI * (x + 0.5) / 16)));
+  const std::string file = folder + "/waves.exr";
+  std::string error;
+  REQUIRE(writeImage(file, image, {}, error));
+  return file;
+}
+
+Value pigment(const std::string& name, Settings settings) {
+  Value v;
+  v.kind = Value::Kind::block;
+  v.block = std::make_shared<const Block>(makeBlock("pigment", name, std::move(settings)));
+  return v;
+}
+
+Block shining(Block shape, const Value& emission) {
+  shape.settings.push_back({"emission", emission, {}});
+  return shape;
+}
 
 double relative(Vec3 a, Vec3 b) {
   return double(length(a - b)) / std::max(1e-6, double(length(b)));
@@ -127,26 +153,69 @@ TEST_CASE("the lens moves nothing on the plane of focus", "[engine][footprint]")
 }
 
 TEST_CASE("connections to lights move as differences say", "[engine][footprint]") {
+  struct Lamp {
+    const char* name;
+    LightMeasure measure;
+    Block block;
+  };
   const TempFolder folder;
-  SceneDesc description = everything(folder.path());
-  description.blocks.push_back(makeBlock("light", "area",
-                                         {{"corner", vec(-0.5, 2.9, -0.5)},
-                                          {"edge1", vec(1, 0, 0)},
-                                          {"edge2", vec(0, 0, 1)},
-                                          {"radiance", colourValue(5, 5, 5)}}));
-  const auto scene = built(description);
-  const Light& light = *scene->view().lights()[0];
-  const PathTracer tracer(*scene, 1);
-  Random random(17);
-  Judged result;
-  for (int i = 0; i < 300; ++i)
-    judgeConnection(tracer, light, randomNumbers(random, 3), random.pair(), result);
-  INFO("asked " << result.asked << ", judged " << result.judged);
-  INFO("direction " << result.direction.at(0.5) << ", 99 % " << result.direction.at(0.99));
-  INFO("g " << result.gradient.at(0.5) << ", 99 % " << result.gradient.at(0.99));
-  CHECK(result.judged > result.asked / 2);
-  checkErrors(result.direction);
-  checkErrors(result.gradient);
+  const auto white = colourValue(5, 5, 5);
+  const auto waves = textValue(writeWaves(folder.path()));
+  const Lamp lamps[] = {
+      {"area, constant", LightMeasure::constant,
+       makeBlock("light", "area",
+                 {{"corner", vec(-0.5, 2.9, -0.5)},
+                  {"edge1", vec(1, 0, 0)},
+                  {"edge2", vec(0, 0, 1)},
+                  {"radiance", white}})},
+      {"area", LightMeasure::area,
+       makeBlock("light", "area",
+                 {{"corner", vec(-0.5, 2.9, -0.5)},
+                  {"edge1", vec(1, 0, 0)},
+                  {"edge2", vec(0, 0, 1)},
+                  {"radiance", white}})},
+      {"textured quad", LightMeasure::area,
+       shining(quad({Real(-0.5), Real(2.9), Real(-0.5)}, {1, 0, 0}, {0, 0, 1}, {lambert(0.5)}),
+               pigment("image", {{"file", waves}, {"color_space", textValue("raw")}}))},
+      // Squashed, so that its points are drawn by area: for a round ball see shape_light_test.cpp.
+      {"textured ellipsoid", LightMeasure::area,
+       placed(shining(
+                  makeBlock("shape", "sphere",
+                            {{"centre", vec(0, 0, 0)}, {"radius", numberValue(1)}}, {lambert(0.5)}),
+                  pigment("gradient", {{"first", colourValue(1, 1, 1)},
+                                       {"second", colourValue(3, 3, 3)},
+                                       {"direction", vec(0.2, 0.1, 0)}})),
+              at(-2.2, 2.3, 0, 0.5, 1.3))},
+      {"point", LightMeasure::direction,
+       makeBlock("light", "point", {{"location", vec(0.3, 2.5, -0.5)}, {"intensity", white}})},
+      {"spot", LightMeasure::direction,
+       makeBlock("light", "spot",
+                 {{"location", vec(0.3, 2.8, -1)},
+                  {"point_at", vec(0, 0, 0.5)},
+                  {"radius", numberValue(5)},
+                  {"falloff", numberValue(70)},
+                  {"intensity", white}})},
+      {"environment", LightMeasure::direction,
+       makeBlock("light", "environment", {{"map", waves}})}};
+  for (const Lamp& lamp : lamps) {
+    SceneDesc description = everything(folder.path());
+    description.blocks.push_back(lamp.block);
+    const auto scene = built(description);
+    const Light& light = *scene->view().lights()[0];
+    const PathTracer tracer(*scene, 1);
+    Random random(17);
+    Judged result;
+    for (int i = 0; i < 300; ++i)
+      judgeConnection(tracer, light, lamp.measure, randomNumbers(random, 3), random.pair(), result);
+    INFO(lamp.name << ": asked " << result.asked << ", judged " << result.judged);
+    INFO("direction " << result.direction.at(0.5) << ", 99 % " << result.direction.at(0.99));
+    INFO("g of " << result.gradient.all.size() << ": " << result.gradient.at(0.5) << ", 99 % "
+                 << result.gradient.at(0.99));
+    CHECK(result.judged > result.asked / 2);
+    CHECK(result.gradient.all.size() > 200);
+    checkErrors(result.direction);
+    checkErrors(result.gradient);
+  }
 }
 
 TEST_CASE("footprints do not change with the sign of a number or with reduction",

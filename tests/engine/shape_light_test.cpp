@@ -144,6 +144,49 @@ TEST_CASE("a shining shape is sampled with the density that it tells", "[light]"
   }
 }
 
+TEST_CASE("radiance that varies over a light counts in its gradient", "[light]") {
+  const Real h = kDouble ? Real(1e-4) : Real(4e-3);
+  const auto varies = [](const SurfacePoint& p) {
+    return grey(std::exp(Real(0.9) * p.position.x + Real(0.5) * p.position.y - p.position.z));
+  };
+  for (const Lamp& lamp : lamps()) {
+    INFO(lamp.name);
+    const auto even = lamp.light();
+    const auto varied = makeShapeLight(lamp.placement, varies, lamp.twoSided, grey(1));
+    Random random(34);
+    std::vector<double> off;
+    for (int k = 0; k < 400; ++k) {
+      const Vec3 from = k % 2 ? kFrom : Vec3{-4, 1, 2};
+      const Vec2 u{Real(random.between(0.05, 0.95)), Real(random.between(0.05, 0.95))};
+      const auto s = varied->sample(from, u);
+      if (!s || std::abs(dot(s->hit.normal, s->hit.toLight)) < Real(0.15)) continue;
+      const LightLogGradient all = varied->logGradient(from, u), some = even->logGradient(from, u);
+      const auto compare = [&](Real told, Vec3 dFrom, Vec2 du) {
+        const auto log = [&](Real step) -> std::optional<Real> {
+          const auto moved = varied->sample(from + step * dFrom, u + step * du);
+          return moved ? std::optional(std::log(luminance(moved->radiance))) : std::nullopt;
+        };
+        const auto a = log(-h), b = log(h);
+        if (!a || !b) return;
+        const Real slope = (*b - *a) / (2 * h);
+        if (told == 0 && slope == 0) return;  // drawn by area, and only the eye moved
+        off.push_back(double(std::abs(told - slope) / std::max(Real(1), std::abs(slope))));
+      };
+      compare(all.du.x - some.du.x, {}, {1, 0}), compare(all.du.y - some.du.y, {}, {0, 1});
+      for (int axis = 0; axis < 3; ++axis) {
+        Vec3 e;
+        e[axis] = 1;
+        compare(all.dFrom[axis] - some.dFrom[axis], e, {});
+      }
+    }
+    REQUIRE(off.size() > 100);
+    std::sort(off.begin(), off.end());
+    INFO("median " << off[off.size() / 2] << ", 95 % " << off[off.size() * 95 / 100]);
+    CHECK(off[off.size() / 2] < (kDouble ? 1e-4 : 1e-2));
+    CHECK(off[off.size() * 95 / 100] < (kDouble ? 1e-2 : 5e-2));  // the rest: seams of the surface
+  }
+}
+
 TEST_CASE("derivatives of a sampled light agree with differences", "[light]") {
   const Real h = kDouble ? Real(1e-5) : Real(2e-3);
   const double tolerance = kDouble ? 1e-5 : 3e-2;

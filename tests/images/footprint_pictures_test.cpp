@@ -111,6 +111,25 @@ TEST_CASE("filtered pictures are the same for any number of threads", "[footprin
   }
 }
 
+TEST_CASE("a limit heeds the light if the scene says so", "[footprint]") {
+  const std::string spot =
+      "light spot { location <0, 3, 0> point_at <0, 0, 0> radius 2 falloff 40 intensity rgb 20 }";
+  for (const char* integrator : {"path { depth 4", "distributed { depth 3"}) {
+    const auto picture = [&](const std::string& footprint) {
+      return renderText(
+          balls(kChecker, std::string(integrator) + " footprint " + footprint + " }", spot),
+          "--spp 16");
+    };
+    INFO(integrator);
+    const Image constant = picture("gradient { light constant }");
+    CHECK(isSame(picture("gradient { }"), constant));
+    const Image exact = picture("gradient { light exact }");
+    CHECK(!isSame(exact, constant));
+    CHECK(meanOf(exact) == Approx(meanOf(constant)).epsilon(0.01));
+    CHECK(isSame(picture("safe"), picture("safe { light exact }")));  // no limit, no matter
+  }
+}
+
 TEST_CASE("few samples of a fine texture are quieter when filtered", "[footprint]") {
   const std::string fine = "checker { rgb 0.1, rgb 0.9 scale 0.05 }";
   const Image reference =

@@ -21,17 +21,17 @@ namespace {
 constexpr int kWidth = 32, kHeight = 24;
 using Pixels = std::vector<float>;  ///< RGB
 
-/// Balls of all kinds of lobes over a floor that shows them a pattern; one light that is neither
-/// chosen among others nor sampled, so what noise there is is that of the pattern.
-std::string balls(const std::string& pigment, const std::string& integrator) {
+/// One light that is neither chosen among others nor sampled.
+const char* const kSun = "light distant { direction <0.3, -1, 0.4> irradiance rgb 2 }\n";
+
+/// Balls of all kinds of lobes over a floor that shows them a pattern: under the sun what noise
+/// there is is that of the pattern.
+std::string balls(const std::string& pigment, const std::string& integrator,
+                  const std::string& light = kSun) {
   return "camera pinhole { location <0, 1.6, -5> look_at <0, 0.9, 0> angle 40 }\n"
          "film { resolution <32, 24> }\n"
          "integrator " +
-         integrator +
-         "\n"
-         "light distant { direction <0.3, -1, 0.4> irradiance rgb 2 }\n"
-         "plane { y, 0 brdf lambert { diffuse pigment " +
-         pigment +
+         integrator + "\n" + light + "plane { y, 0 brdf lambert { diffuse pigment " + pigment +
          " } }\n"
          "sphere { <-1.3, 0.9, 0>, 0.8 brdf phong { specular rgb 0.8 exponent 40 } }\n"
          "sphere { <0.4, 0.7, -0.6>, 0.6 brdf glass { ior 1.5 } }\n"
@@ -66,8 +66,8 @@ double mean(const Pixels& a) {
 /// Mean square error over seeds, by the number of samples.
 std::vector<double> errors(const std::string& pigment, const std::string& integrator,
                            const std::string& footprint, const Pixels& reference, int seeds,
-                           const std::vector<int>& samples) {
-  const auto scene = sceneOf(balls(pigment, integrator + " footprint " + footprint + " }"));
+                           const std::vector<int>& samples, const std::string& light = kSun) {
+  const auto scene = sceneOf(balls(pigment, integrator + " footprint " + footprint + " }", light));
   std::vector<double> sum(samples.size());
   for (int seed = 1; seed <= seeds; ++seed) {
     const auto pictures = progress(*scene, std::uint32_t(seed), samples);
@@ -88,8 +88,9 @@ const std::map<std::string, std::string> kTextures = {
     {"photograph",
      "image { \"" VESTIGE_SOURCE_DIR "/examples/assets/gravel.png\" rotate 90*x scale 2 }"}};
 
-Pixels reference(const std::string& pigment, const std::string& integrator, int samples) {
-  const auto scene = sceneOf(balls(pigment, integrator + " footprint none }"));
+Pixels reference(const std::string& pigment, const std::string& integrator, int samples,
+                 const std::string& light = kSun) {
+  const auto scene = sceneOf(balls(pigment, integrator + " footprint none }", light));
   return progress(*scene, 99, {samples}).back();
 }
 
@@ -153,4 +154,38 @@ TEST_CASE("exponents of safe", "[.exponents][slow]") {
         std::fflush(stdout);
       }
     }
+}
+
+// Whether the light counts in a limit: test_images "[.light_term]" prints what docs/footprints.md
+// shows.
+TEST_CASE("the light in a limit, constant and exact", "[.light_term][slow]") {
+  const std::vector<int> samples = {1, 4, 16, 64, 256};
+  const std::map<std::string, std::string> lights = {
+      {"spot",
+       "light spot { location <0.5, 4, -2> point_at <0, 0, -0.5> radius 10 falloff 25 "
+       "intensity rgb 30 }\n"},
+      {"spot behind gloss",  // a glossy pane fills the view: it shows the floor where the spot
+                             // fades
+       "light spot { location <0, 4, -7.5> point_at <0, 0, -4.4> radius 1 falloff 8 "
+       "intensity rgb 60 }\n"
+       "quad { <-4, -0.5, -2.5>, <8, 0, 0>, <0, 5, -2.5> "
+       "brdf phong { specular rgb 0.8 exponent 40 } }\n"},
+      {"near lamp", "light area { <-0.4, 1.2, -1.6>, <0.8, 0, 0>, <0, 0, 0.8> radiance rgb 8 }\n"}};
+  const std::pair<const char*, const char*> integrators[] = {
+      {"path", "path { depth 4"}, {"distributed", "distributed { split 4 depth 3"}};
+  for (const auto& [lamp, light] : lights)
+    for (const auto& [name, integrator] : integrators)
+      for (const char* texture : {"as fine as the lobe", "finer", "much finer", "smooth, bent"}) {
+        const std::string& pigment = kTextures.at(texture);
+        const Pixels truth = reference(pigment, integrator, 4096, light);
+        const auto none = errors(pigment, integrator, "none", truth, 8, samples, light);
+        for (const char* footprint : {"gradient { }", "gradient { light exact }",
+                                      "safe { limit 0.7 }", "safe { limit 0.7 light exact }"}) {
+          const auto found = errors(pigment, integrator, footprint, truth, 8, samples, light);
+          std::printf("| %s | %s | %s | %s |", lamp.c_str(), name, texture, footprint);
+          for (std::size_t i = 0; i < samples.size(); ++i)
+            std::printf(" %.3f |", none[i] / found[i]);
+          std::printf("\n"), std::fflush(stdout);
+        }
+      }
 }

@@ -118,9 +118,23 @@ inline Real covariance(const Footprint& f, Vec3 n, int entry) {
                       : moment(frame.t, frame.t);
 }
 
-/// The connection from the last vertex of a path to the point of a light that u draws.
-inline void judgeConnection(const PathTracer& tracer, const Light& light, const PathNumbers& n,
-                            Vec2 u, Judged& result) {
+/// What the light puts into the contribution: its radiance, and what turns a measure of its own
+/// into solid angle.
+enum class LightMeasure {
+  constant,   ///< neither counts
+  direction,  ///< a direction was drawn, or there was no choice: the radiance alone
+  area,       ///< a point was drawn by area: cos / distance^2 too
+};
+
+inline Real lightFactor(const LightSample& s, LightMeasure measure) {
+  if (measure == LightMeasure::constant) return 1;
+  const Real area = std::abs(dot(s.hit.normal, s.hit.toLight)) / sqr(s.hit.distance);
+  return luminance(s.radiance) * (measure == LightMeasure::area ? area : Real(1));
+}
+
+/// The connection from each vertex of a path to the point of a light that u draws.
+inline void judgeConnection(const PathTracer& tracer, const Light& light, LightMeasure measure,
+                            const PathNumbers& n, Vec2 u, Judged& result) {
   std::vector<PathFootprint<16>> carried;
   const auto base = tracer.trace(n, int(n.lobes.size()), nullptr, nullptr, &carried);
   for (std::size_t k = 0; k < base.size() && !isClamped(base[k]); ++k) {
@@ -128,15 +142,23 @@ inline void judgeConnection(const PathTracer& tracer, const Light& light, const 
     const Vec3 from = v.surface.position;
     const auto drawn = light.sample(from, u);
     if (!v.x.brdf || !drawn || !differsSmoothly(u, Real(3 * kPathStep))) return;
-    const auto f = [&](const TracedVertex& at, Vec3 toLight) -> std::optional<Real> {
-      const Real value = luminance(evalScatter(at.x, toLight));
+    const auto f = [&](const TracedVertex& at, const LightSample& s) -> std::optional<Real> {
+      const Real value = luminance(evalScatter(at.x, s.hit.toLight)) * lightFactor(s, measure);
       return value > Real(1e-12) ? std::optional(std::log(value)) : std::nullopt;
     };
-    if (!f(v, drawn->hit.toLight) || std::abs(dot(v.x.frame.n, drawn->hit.toLight)) < Real(0.05))
-      return;
-    const auto all = carried[k].connect(v.surface, v.x, drawn->hit.toLight,
-                                        light.sampleDerivatives(from, u), {});
+    const bool isGrazing = std::abs(dot(v.x.frame.n, drawn->hit.toLight)) < Real(0.05) ||
+                           (measure == LightMeasure::area &&
+                            std::abs(dot(drawn->hit.normal, drawn->hit.toLight)) < Real(0.05));
+    if (!f(v, *drawn) || isGrazing) return;
+    const LightJacobian jacobian = light.sampleDerivatives(from, u);
+    const LightLogGradient slope =
+        measure == LightMeasure::constant ? LightLogGradient{} : light.logGradient(from, u);
+    const auto all = carried[k].connect(v.surface, v.x, drawn->hit.toLight, jacobian, slope);
     REQUIRE(all.size() == carried[k].differentials().size() + 2);
+    // What the integrators limit by is the same.
+    const auto limited = carried[k].connected(v.surface, v.x, drawn->hit, jacobian, slope);
+    for (int j = 0; j < limited.differentials().size(); ++j)
+      CHECK(limited.differentials().gradient(j) == all.gradient(j));
     for (int j = 0; j < all.size(); ++j) {
       const int own = j - (all.size() - 2);
       // Only the first four numbers and the light's own are sure to be where they are looked for.
@@ -145,34 +167,36 @@ inline void judgeConnection(const PathTracer& tracer, const Light& light, const 
       const double size = double(length(carried[k].differentials().dVertex(std::min(j, 3))));
       const double h = kPathStep / std::max(1.0, own < 0 ? size : 1.0);
       const auto value = [&](auto pick) {
-        return [&, pick](double x) -> decltype(pick(v, Vec3{})) {
+        return [&, pick](double x) -> decltype(pick(v, *drawn)) {
           if (own >= 0) {
             const Vec2 uu = own == 0 ? Vec2{u.x + Real(x), u.y} : Vec2{u.x, u.y + Real(x)};
             const auto s = light.sample(from, uu);
             if (!s) return std::nullopt;
-            return pick(v, s->hit.toLight);
+            return pick(v, *s);
           }
           const auto p = tracer.trace(moved(n, j, x), int(k) + 1, &base);
           if (p.size() <= k) return std::nullopt;
           const auto s = light.sample(p[k].surface.position, u);
           if (!s) return std::nullopt;
-          return pick(p[k], s->hit.toLight);
+          return pick(p[k], *s);
         };
       };
       ++result.asked;
       const auto direction =
-          trustedDifference(value([](const TracedVertex&, Vec3 d) { return std::optional(d); }), h,
-                            kTrust * std::max(1.0, double(length(all.dDirection(j)))));
+          trustedDifference(value([](const TracedVertex&, const LightSample& s) {
+                              return std::optional(s.hit.toLight);
+                            }),
+                            h, kTrust * std::max(1.0, double(length(all.dDirection(j)))));
       if (!direction) continue;
       ++result.judged;
       result.direction.add(double(length(all.dDirection(j) - *direction)) /
                            std::max(1.0, double(length(*direction))));
-      const auto g =
-          trustedDifference(value([&](const TracedVertex& at, Vec3 d) -> std::optional<Real> {
-                              const auto log = f(at, d);
-                              return log ? std::optional(at.logF + *log) : std::nullopt;
-                            }),
-                            h, kTrust * std::max(1.0, std::abs(double(all.gradient(j)))), 5);
+      const auto g = trustedDifference(
+          value([&](const TracedVertex& at, const LightSample& s) -> std::optional<Real> {
+            const auto log = f(at, s);
+            return log ? std::optional(at.logF + *log) : std::nullopt;
+          }),
+          h, kTrust * std::max(1.0, std::abs(double(all.gradient(j)))), 5);
       if (g)
         result.gradient.add(std::abs(double(all.gradient(j) - *g)) /
                             std::max(1.0, std::abs(double(*g))));

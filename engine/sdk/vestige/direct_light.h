@@ -41,32 +41,53 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
   return sum;
 }
 
-/// Next-event estimation: one light, one point of it. The mean of `samples` of these is the direct
-/// light; `scattered` rays are drawn besides. `index`: of the sample in its sequences.
-inline Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
-                       std::uint32_t index, Real samples = 1, Real scattered = 1) noexcept {
+/// A point of a light, drawn from a surface.
+struct TowardsLight {
+  const Light* light = nullptr;
+  Vec2 u{};                             ///< the light's own numbers
+  Real chance = 0;                      ///< of choosing it
+  std::optional<LightSample> sample{};  ///< empty: nothing arrives
+};
+
+/// One light, one point of it. `index`: of the sample in its sequences.
+inline TowardsLight drawLight(PathContext& c, const Surface& s, std::uint32_t vertex,
+                              std::uint32_t index) noexcept {
   const std::uint32_t dim = dimension::vertex(vertex);
   // One pair chooses the light and then its point: so the points are stratified on each light.
   Vec2 u = c.sampler.pair(dim + dimension::kLight, index);
   const auto choice = c.scene.chooseLight(s.position, u.x);
-  if (!choice || !x.brdf) return {};
+  if (!choice) return {};
   constexpr Real kFewBits = Real(1) / 256;
   u.x = choice->chance > kFewBits ? choice->rest
                                   : c.sampler.number(dim + dimension::kLightChoice, index);
-  const Light& light = *c.scene.lights()[std::size_t(choice->light)];
-  const auto drawn = light.sample(s.position, u);
-  if (!drawn) return {};
-  const Rgb f = evalScatter(x, drawn->hit.toLight);
-  if (isBlack(f) || isBlack(drawn->radiance)) return {};
+  const Light* light = c.scene.lights()[std::size_t(choice->light)];
+  return {light, u, choice->chance, light->sample(s.position, u)};
+}
+
+/// What arrives from there and is reflected, weighted as one of `samples`; `scattered` rays are
+/// drawn besides.
+inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x,
+                          const TowardsLight& towards, Real samples, Real scattered) noexcept {
+  if (!towards.sample) return {};
+  const LightSample& drawn = *towards.sample;
+  const Rgb f = evalScatter(x, drawn.hit.toLight);
+  if (isBlack(f) || isBlack(drawn.radiance)) return {};
   ++c.counters.shadowRays;
-  const Real visible = c.scene.transmittance(shadowRay(s, drawn->hit.toLight, drawn->hit.distance));
+  const Real visible = c.scene.transmittance(shadowRay(s, drawn.hit.toLight, drawn.hit.distance));
   if (visible == 0) return {};
-  const Real density = choice->chance * drawn->pdf;
+  const Real density = towards.chance * drawn.pdf;
   const Real weight =
-      light.isDelta()
+      towards.light->isDelta()
           ? 1
-          : powerHeuristic(samples * density, scattered * scatterPdf(x, drawn->hit.toLight));
-  return (visible * weight / density) * f * drawn->radiance;
+          : powerHeuristic(samples * density, scattered * scatterPdf(x, drawn.hit.toLight));
+  return (visible * weight / density) * f * drawn.radiance;
+}
+
+/// Next-event estimation: the mean of `samples` of these is the direct light.
+inline Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
+                       std::uint32_t index, Real samples = 1, Real scattered = 1) noexcept {
+  if (!x.brdf) return {};
+  return reflectedLight(c, s, x, drawLight(c, s, vertex, index), samples, scattered);
 }
 
 }  // namespace vestige

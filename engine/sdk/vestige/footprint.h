@@ -160,6 +160,19 @@ class PathFootprint {
                                   lightLog);
   }
 
+  /// Whether a connection has a footprint of its own (LightTerm::exact).
+  bool heedsLight() const noexcept {
+    return settings_.light == LightTerm::exact && settings_.deltas.limit < kInfinity;
+  }
+  /// This path, limited by the gradient of its connection to a light instead of its own.
+  [[gnu::noinline]] PathFootprint connected(const Surface& s, const Interaction& x,
+                                            const LightHit& hit, const LightJacobian& light,
+                                            const LightLogGradient& lightLog) const noexcept {
+    PathFootprint result = *this;
+    result.differentials_.takeGradients(connect(s, x, hit.toLight, light, lightLog));
+    return result;
+  }
+
   /// A discrete choice that the path survived, with its probability.
   void chance(Real probability) noexcept { count_.chance(probability); }
 

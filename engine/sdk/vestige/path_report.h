@@ -37,6 +37,36 @@ Rgb filteredBackground(const SceneView& scene, const DrawnRay& ray, Vec3 directi
   return background(scene, ray, direction, spread);
 }
 
+/// Direct light where the connection's own gradient limits the footprint: the light is drawn first,
+/// and the surface shaded again over what that leaves.
+template <int Lanes>
+[[gnu::noinline]] Rgb limitedDirectLight(PathContext& c, const Surface& s, const Interaction& x,
+                                         std::uint32_t vertex, std::uint32_t index, Real samples,
+                                         Real scattered, const PathFootprint<Lanes>& f) noexcept {
+  const TowardsLight towards = drawLight(c, s, vertex, index);
+  if (!x.brdf || !towards.sample) return {};
+  const LightHit& hit = towards.sample->hit;
+  // Where f is 0 its logarithm has no slope.
+  if (isBlack(evalScatter(x, hit.toLight)) || isBlack(towards.sample->radiance)) return {};
+  const PathFootprint<Lanes> connected =
+      f.connected(s, x, hit, towards.light->sampleDerivatives(hit.from, towards.u),
+                  towards.light->logGradient(hit.from, towards.u));
+  InputBuffer inputs;
+  Interaction again;
+  c.scene.shade(s, x.toPrev, connected.footprint(), inputs, again);
+  return reflectedLight(c, s, again, towards, samples, scattered);
+}
+
+/// directLight() of a path with its footprint, if it carries one.
+template <int Lanes>
+Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
+                std::uint32_t index, Real samples, Real scattered,
+                const PathFootprint<Lanes>* f) noexcept {
+  if (f && f->heedsLight() && c.scene.usesFootprint(s))
+    return limitedDirectLight(c, s, x, vertex, index, samples, scattered, *f);
+  return directLight(c, s, x, vertex, index, samples, scattered);
+}
+
 /// Diameter of everything finite; infinite where there is nothing finite.
 inline Real sizeOf(const SceneView& scene) noexcept {
   const Bounds b = scene.bounds();

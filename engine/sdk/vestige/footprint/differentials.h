@@ -317,6 +317,12 @@ class Differentials {
   }
   void clear() noexcept { size_ = 0; }
 
+  /// The gradients of another's first numbers, which are this one's.
+  template <int More>
+  void takeGradients(const Differentials<More>& other) noexcept {
+    for (int b = 0; b < blocks(); ++b) blocks_[b].g = other.block(b).g;
+  }
+
  private:
   /// Two numbers of one event, which move the direction only. Built in registers: lanes written one
   /// by one make the next read of their block wait.

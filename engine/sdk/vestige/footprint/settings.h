@@ -18,9 +18,16 @@ enum class Limited {
   score,         ///< F/p [PD01 Sec. 3.4]
 };
 
+/// What a path that is joined to a light adds to that change.
+enum class LightTerm {
+  constant,  ///< nothing: the footprint is that of the path up to the surface [PD01 3.2]
+  exact,     ///< f cos towards the light, and the light's own factor: Light::logGradient()
+};
+
 struct FootprintSettings {
   DeltaPolicy deltas;
   Limited limited = Limited::contribution;
+  LightTerm light = LightTerm::constant;
   RegionShape shape = RegionShape::covariance;
   bool alongMajor = false;  ///< pictures are looked up as PD01 does
   bool isOn() const noexcept { return deltas.bound != Bound::none; }
@@ -55,6 +62,10 @@ inline std::vector<Schema> footprintSchemas() {
                       .unset()
                       .doc("whose change is limited: that of F or of F/p, what importance sampling "
                            "leaves (Suykens and Willems, 3.4)"),
+                  choice("light", {"constant", "exact"})
+                      .unset()
+                      .doc("with a limit: whether the light that a path is joined to counts as "
+                           "change too, and what the surface reflects of it"),
                   choice("shape", {"covariance", "representative"})
                       .unset()
                       .doc("ellipse with the vectors' second moments, or the paper's two vectors"),
@@ -93,6 +104,8 @@ inline FootprintSettings footprintSettings(const Block* block, Bound native,
   number("exponent", s.deltas.exponent);
   if (const Value* v = block->find("of"))
     s.limited = v->text == "score" ? Limited::score : Limited::contribution;
+  if (const Value* v = block->find("light"))
+    s.light = v->text == "exact" ? LightTerm::exact : LightTerm::constant;
   if (const Value* v = block->find("shape"))
     s.shape = v->text == "representative" ? RegionShape::representative : RegionShape::covariance;
   return s;
