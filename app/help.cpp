@@ -14,11 +14,13 @@ loops and macros. Every camera, light, shape and material is a plugin.
   vestige render hello.scene -o a.exr -o a.png     two files of one render
   vestige render hello.scene --time 2m --width 1920
   vestige render hello.scene --noise 0.02          until its noise is 2 % of its brightness
+  vestige view hello.scene                         a window: the picture follows each save
   vestige check hello.scene                        what is wrong with it, without rendering
   vestige describe brdf phong                      what a material may say
 
 Commands ('vestige COMMAND --help' for their options)
   render SCENE      render to EXR, HDR, TIFF, PNG or JPEG; Ctrl-C keeps what is done
+  view SCENE        show the scene while it is written; or a picture: view picture.exr
   inspect SCENE X Y one path, vertex by vertex: what it hit and how large its footprint is there
   check SCENE       errors and warnings only; --json for editors
   describe [KIND [NAME]]
@@ -38,6 +40,7 @@ Options
 Environment
   VESTIGE_PLUGIN_PATH, VESTIGE_INCLUDE_PATH   more folders, separated by ':'
                     (~/.local/lib/vestige is looked through for plugins in any case)
+  VISUAL, EDITOR    opened by `vestige view` at the place of an error (code)
   VESTIGE_CACHE     folder for files that can be made again (~/.cache/vestige)
   OCIO              OpenColorIO configuration in place of the built-in one
   NO_COLOR          no colours on the terminal

@@ -7,7 +7,7 @@ cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 status=0
 
 std='<[a-z_0-9]+>'
-system='<(unistd|dlfcn|fcntl|signal|termios|xmmintrin|pmmintrin|immintrin|sys/[a-z]+)\.h>'
+system='<(execinfo|spawn|unistd|dlfcn|fcntl|signal|termios|xmmintrin|pmmintrin|immintrin|sys/[a-z]+)\.h>'
 sdk='<vestige/[a-z_0-9/]+\.h>'
 
 # includes FOLDER ALLOWED: every #include below FOLDER is one of the extended regex ALLOWED.
@@ -28,7 +28,10 @@ includes engine/scene "$std|$system|$sdk|\"engine/(scene|trace|image)/|<fmt/"
 includes engine/render "$std|$system|$sdk|\"engine/"
 includes judge "$std|$system|$sdk|\"(judge|engine)/|<fmt/"
 includes lang "$std|$system|$sdk|\"lang/|<fmt/"
-includes app "$std|$system|$sdk|\"(app|engine|judge|lang)/|<fmt/|<CLI/|<nlohmann/"
+for part in app/*.cpp app/*.h app/templates; do
+  includes "$part" "$std|$system|$sdk|\"(app|engine|judge|lang)/|<fmt/|<CLI/|<nlohmann/"
+done
+includes app/window "$std|$system|$sdk|\"(app|engine|lang)/|<fmt/|<CLI/|<GL/|<GLFW/|<imgui.h>|<backends/"
 
 # A plugin sees the SDK and, if it is a folder, its own files; one of them brings a library.
 for kind in plugins/*/; do

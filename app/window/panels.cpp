@@ -14,6 +14,14 @@
 namespace vestige::app {
 namespace {
 
+/// A path is told as it was given; but one in another folder than this one is long.
+std::string shortened(std::string text) {
+  std::error_code failed;
+  const std::string here = std::filesystem::current_path(failed).string() + '/';
+  for (std::size_t at; (at = text.find(here)) != text.npos;) text.erase(at, here.size());
+  return text;
+}
+
 constexpr float kPanel = 350, kStatus = 26;
 constexpr int kTexturePixels = 220;
 const char* const kBounds[] = {"as traced", "pixel", "local", "global", "safe"};
@@ -354,7 +362,10 @@ void Window::drawComplaints() {
   if (!preview_) return;
   const Status s = preview_->status();
   if (s.complaints.empty()) return;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({12, 12}, ImGuiCond_Always);
+  ImGui::SetNextWindowSizeConstraints(
+      {0, 0}, {std::max(200.f, size.x - panelWidth() - 24), std::max(80.f, size.y * 0.6f)});
   ImGui::SetNextWindowBgAlpha(0.88f);
   ImGui::PushStyleColor(ImGuiCol_Border,
                         s.isWrong ? IM_COL32(255, 80, 60, 255) : IM_COL32(230, 180, 60, 255));
@@ -362,7 +373,7 @@ void Window::drawComplaints() {
                          : "The scene has warnings###complaints",
                nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
+                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_HorizontalScrollbar);
   int shown = 0;
   for (const Complaint& c : s.complaints) {
     if (++shown > 6) {
@@ -373,7 +384,7 @@ void Window::drawComplaints() {
     ImGui::PushStyleColor(ImGuiCol_Text, c.severity == Severity::error
                                              ? IM_COL32(255, 150, 130, 255)
                                              : IM_COL32(255, 220, 130, 255));
-    text(c.text);
+    text(shortened(c.text));
     ImGui::PopStyleColor();
     if (c.place.line > 0) {
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("click: open in the editor");

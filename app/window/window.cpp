@@ -174,7 +174,13 @@ void Window::takeSnapshot() {
   takeScene();
   if (const auto fresh = preview_->inspection(); fresh != inspection_) {
     inspection_ = fresh, isTextureStale_ = true;
+    // The first with a texture: that is what footprints are for.
     vertex_ = 0;
+    const auto& vertices = inspection_ ? inspection_->path.vertices : std::vector<PathVertex>{};
+    for (std::size_t k = vertices.size(); k-- > 0;)
+      if (vertices[k].surface.object >= 0 &&
+          inspection_->open->scene().view().usesFootprint(vertices[k].surface))
+        vertex_ = int(k);
   }
   const auto fresh = preview_->snapshot();
   if (!fresh || fresh == snapshot_) return;

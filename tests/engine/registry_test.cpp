@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <chrono>
 #include <fstream>
 
 #include "support/catch.h"
@@ -150,4 +151,26 @@ TEST_CASE("a library may have any name that promises nothing", "[registry][lazy]
   CHECK(fileFor({early.path()}) == early / "mine.so");
   CHECK(fileFor({early.path(), late.path()}) == late / "brdf_lambert.so");
   CHECK(fileFor({late.path(), early.path()}) == early / "mine.so");
+}
+
+TEST_CASE("a library that was built anew is loaded anew", "[registry]") {
+  const TempFolder folder;
+  const fs::path file = fs::path(folder.path()) / "brdf_lambert.so";
+  const auto entry = [&] {
+    std::vector<std::string> refused;
+    const Registry r = Registry::load({folder.path()}, refused);
+    const Plugin* plugin = r.find("brdf", "lambert");
+    REQUIRE(plugin);
+    return plugin->entry;
+  };
+  fs::copy_file(VESTIGE_PLUGINS "/brdf_lambert.so", file);
+  const VestigePlugin* first = entry();
+  CHECK(entry() == first);
+  // As a linker does: not into the file that is in use.
+  fs::remove(file);
+  fs::copy_file(VESTIGE_PLUGINS "/brdf_lambert.so", file);
+  fs::last_write_time(file, fs::last_write_time(file) + std::chrono::seconds(2));
+  const VestigePlugin* second = entry();
+  CHECK(second != first);
+  CHECK(entry() == second);
 }
