@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/window/layers.h"
@@ -130,19 +131,26 @@ void Window::onKey(int key, int mods) {
 }
 
 void Window::walkByKeys(double seconds) {
-  if (!open_ || request_.isPicture || ImGui::GetIO().WantCaptureKeyboard) return;
+  if (ImGui::GetIO().WantCaptureKeyboard) return;
   const auto isDown = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
   if (isDown(GLFW_KEY_LEFT_CONTROL) || isDown(GLFW_KEY_RIGHT_CONTROL)) return;
-  const int forward = isDown(GLFW_KEY_W) - isDown(GLFW_KEY_S),
-            right = isDown(GLFW_KEY_D) - isDown(GLFW_KEY_A),
-            up = isDown(GLFW_KEY_E) - isDown(GLFW_KEY_X);
-  if (forward == 0 && right == 0 && up == 0) return;
+  std::vector<int> down;
+  for (const int key : {GLFW_KEY_W, GLFW_KEY_S, GLFW_KEY_A, GLFW_KEY_D, GLFW_KEY_E, GLFW_KEY_X})
+    if (isDown(key)) down.push_back(key);
+  if (!down.empty()) walk(down, seconds);
+}
+
+void Window::walk(const std::vector<int>& keys, double seconds) {
   const auto block = camera();
-  auto view = viewOf(*block, cameraSchema());
+  if (!block) return;
+  const auto view = viewOf(*block, cameraSchema());
   if (!view) return;
-  // At most a fifth of a second's walk at once: the first call after a pause.
-  const Real step = kStep * distance(*view) * Real(std::min(seconds, 0.2));
-  steer(pan(walk(*view, Real(forward) * step), Real(right) * step, Real(up) * step));
+  const auto count = [&](int key) { return Real(std::count(keys.begin(), keys.end(), key)); };
+  const Real step = kStep * distance(*view) * Real(seconds);
+  const Vec3 by =
+      step * Vec3{count(GLFW_KEY_D) - count(GLFW_KEY_A), count(GLFW_KEY_E) - count(GLFW_KEY_X),
+                  count(GLFW_KEY_W) - count(GLFW_KEY_S)};
+  if (lengthSquared(by) > 0) steer(pan(app::walk(*view, by.z), by.x, by.y));
 }
 
 void Window::onButton(int button, bool isDown, int mods) {

@@ -75,6 +75,26 @@ Picture layerOf(const Film::Means& means, bool isAov) {
   return p;
 }
 
+Picture withElementEdges(const Film::Means& means) {
+  Picture p = layerOf(means, false);
+  const auto& names = means.channels;
+  const auto id = std::size_t(
+      std::find_if(names.begin(), names.end(),
+                   [](const std::string& n) { return n.rfind(name(Aov::elementId), 0) == 0; }) -
+      names.begin());
+  if (id == names.size()) return p;
+  const auto idAt = [&](int x, int y) {
+    return means.pixels[(std::size_t(y) * means.width + x) * names.size() + id];
+  };
+  for (int y = 0; y + 1 < means.height; ++y)
+    for (int x = 0; x + 1 < means.width; ++x)
+      if (idAt(x, y) != idAt(x + 1, y) || idAt(x, y) != idAt(x, y + 1)) {
+        float* c = &p.rgb[(std::size_t(y) * p.width + x) * 3];
+        c[0] = 0.25f * c[0] + 0.3f, c[1] = 0.25f * c[1] + 0.15f, c[2] = 0.25f * c[2];
+      }
+  return p;
+}
+
 double noiseOf(const Picture& p) {
   constexpr std::size_t kMost = 20000;  // of a sparse grid: it is asked for every frame
   std::vector<float> differences;

@@ -131,13 +131,17 @@ void Window::drawPicturePanel() {
   if (!preview_) return;
   std::vector<std::string> layers;
   for (int i = 0; i < kAovs; ++i) layers.push_back(name(Aov(i)));
+  layers.push_back("element edges");
   std::string chosen = layer_ > 0 ? layers[std::size_t(layer_ - 1)] : "";
   if (choose("shows", layers, chosen, "radiance")) {
     layer_ = 0;
-    for (int i = 0; i < kAovs; ++i)
-      if (layers[std::size_t(i)] == chosen) layer_ = i + 1;
+    for (std::size_t i = 0; i < layers.size(); ++i)
+      if (layers[i] == chosen) layer_ = int(i) + 1;
     wish_.aovs.clear();
-    if (layer_ > 0) wish_.aovs = {Aov(layer_ - 1)};
+    if (layer_ == kElementEdges)
+      wish_.aovs = {Aov::elementId, Aov::elementLevel};
+    else if (layer_ > 0)
+      wish_.aovs = {Aov(layer_ - 1)};
     restart(wish_.picture);
   }
 }

@@ -21,6 +21,7 @@ namespace {
 constexpr double kWatchEvery = 0.15;     ///< seconds
 constexpr double kFrameEvery = 1.0 / 8;  ///< while the renderer works: drawing takes a core as well
 constexpr float kMargin = 8;
+constexpr double kTap = 0.06, kLongestWalk = 0.2;  ///< seconds of walking
 
 std::string lastError;  // GLFW tells errors to a function, before there is a window
 
@@ -95,7 +96,10 @@ void Window::installCallbacks() {
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
     of(w).isDirty_ = true;
-    if (action != GLFW_RELEASE && !ImGui::GetIO().WantCaptureKeyboard) of(w).onKey(key, mods);
+    if (action == GLFW_RELEASE || ImGui::GetIO().WantCaptureKeyboard) return;
+    of(w).onKey(key, mods);
+    // A short tap, too, which may be over before walkByKeys() looks.
+    if (action == GLFW_PRESS && mods == 0) of(w).walk({key}, kTap);
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
     of(w).isDirty_ = true;
@@ -142,7 +146,7 @@ bool Window::needsFrame() {
 
 void Window::update() {
   const double now = glfwGetTime();
-  walkByKeys(now - lastWalk_);
+  walkByKeys(std::min(now - lastWalk_, kLongestWalk));
   lastWalk_ = now;
   if (now - lastWatch_ < kWatchEvery) return;
   lastWatch_ = now;
@@ -185,8 +189,9 @@ void Window::takeSnapshot() {
   const auto fresh = preview_->snapshot();
   if (!fresh || fresh == snapshot_) return;
   snapshot_ = fresh;
-  shown_ = layerOf(fresh->means, layer_ > 0 && !fresh->wish.aovs.empty());
-  look_.isData = layer_ > 0 && !fresh->wish.aovs.empty();
+  const bool isAov = layer_ > 0 && layer_ <= kAovs && !fresh->wish.aovs.empty();
+  shown_ = layer_ == kElementEdges ? withElementEdges(fresh->means) : layerOf(fresh->means, isAov);
+  look_.isData = isAov;
   screen_->setPicture(shown_.rgb.data(), shown_.width, shown_.height);
   sheet_.width = fresh->filmWidth, sheet_.height = fresh->filmHeight;
 }

@@ -47,6 +47,7 @@ class Window {
   void onMove(double x, double y);
   void onScroll(double by, bool isZoom);
   void walkByKeys(double seconds);
+  void walk(const std::vector<int>& keys, double seconds);
   void click(double x, double y);
   void focusAt(double x, double y);
   void steer(const View& view);
