@@ -247,7 +247,7 @@ void Window::drawPixelPanel() {
   const std::size_t stride = means->channels.size();
   const float* c = &means->pixels[(std::size_t(py) * means->width + px) * stride];
   text(fmt::format("radiance {:.5g}  {:.5g}  {:.5g}", c[0], c[1], c[2]));
-  for (std::size_t i = 3; i < stride; ++i) text(fmt::format("{} {:.6g}", means->channels[i], c[i]));
+  for (std::size_t i = 3; i < stride; ++i) text(fmt::format("{} {:.10g}", means->channels[i], c[i]));
 }
 
 void Window::drawInspectorPanel() {
