@@ -15,6 +15,7 @@
 #include "app/path_text.h"
 #include "app/scene_input.h"
 #include "engine/render/session.h"
+#include "engine/scene/build_cache.h"
 
 namespace vestige::app {
 
@@ -149,6 +150,7 @@ class Preview {
 
   std::atomic<bool> cancel_{false};
   // Of the working thread alone:
+  const std::shared_ptr<BuildCache> cache_ = std::make_shared<BuildCache>();
   std::shared_ptr<OpenScene> open_;
   Wish done_;  ///< what open_ was made for
   double wished_ = 0;
