@@ -132,6 +132,7 @@ bool Preview::load(const Wish& wish) {
   std::set<std::string> files = {input_.file};
   BuildOptions build = wish.build;
   build.files = &files;
+  build.cache = cache_;
   build.integrator.clear(), build.footprint.clear(), build.settings.clear();  // see renew()
   fresh->loaded = loadScene(input_, fresh->registry, Stage::built, build);
   for (int i = 0; i < fresh->loaded.text.sources->size(); ++i)

@@ -15,6 +15,7 @@
 #include "app/path_text.h"
 #include "app/scene_input.h"
 #include "engine/render/session.h"
+#include "engine/scene/build_cache.h"
 
 namespace vestige::app {
 
@@ -153,6 +154,7 @@ class Preview {
   /// is moved all the time would never be seen.
   std::atomic<bool> cancelCoarse_{false};
   // Of the working thread alone:
+  const std::shared_ptr<BuildCache> cache_ = std::make_shared<BuildCache>();
   std::shared_ptr<OpenScene> open_;
   Wish done_;  ///< what open_ was made for
   double wished_ = 0;

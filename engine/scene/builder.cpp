@@ -15,17 +15,36 @@ Block defaultBrdf() {
   return b;
 }
 
-/// Text that is the same for blocks that create the same shape.
-std::string shapeKey(const Block& block, const SceneDesc& description) {
-  std::string key = block.plugin;
-  const std::int32_t file = block.span.file;
-  if (file >= 0 && file < int(description.files.size())) key += '|' + description.files[file];
+/// A word of a key, which cannot run into the next.
+std::string word(const std::string& text) { return fmt::format("{}:{}", text.size(), text); }
+
+/// Text that is the same for blocks that create the same shape with the same plugin: a library that
+/// was built anew has another entry. "" where that cannot be told.
+std::string shapeKey(const Block& block, const SceneDesc& description, const Plugin& plugin) {
+  std::string key =
+      fmt::format("{} {} ", fmt::ptr(plugin.entry), fmt::ptr(plugin.schema)) + word(block.plugin);
+  const auto addText = [&](Span span) {  // files are looked for beside it
+    const std::int32_t file = span.file;
+    key += word(file >= 0 && file < int(description.files.size()) ? description.files[file] : "");
+  };
+  addText(block.span);
   for (const Setting& s : block.settings) {
     if (s.name == kEmission || s.name == kEmissionSides) continue;
-    key += '|' + s.name + '=' + s.value.text;
-    for (const double x : s.value.v) key += fmt::format(",{}", x);
+    if (s.value.kind == Value::Kind::block) return "";
+    key += word(s.name) + word(s.value.text);
+    if (!s.value.text.empty()) addText(s.value.span);
+    for (const double x : s.value.v) key += fmt::format("{},", x);
   }
   return key;
+}
+
+/// By whose value a plugin means a span; "": none.
+std::string settingAt(Span span, const Block& block) {
+  for (const Setting& s : block.settings)
+    if (s.value.span.file == span.file && s.value.span.begin == span.begin &&
+        s.value.span.end == span.end)
+      return s.name;
+  return "";
 }
 
 std::string described(const Block& block) {
@@ -48,16 +67,18 @@ SceneBuilder::SceneBuilder(Scene& scene, const SceneDesc& description, const Reg
       options_(options),
       diagnostics_(diagnostics),
       impl_(scene.impl()),
-      host_(description, impl_.textures, diagnostics, options.files) {}
+      host_(description, *impl_.textures, diagnostics, options.files,
+            options.cache ? options.cache->textures_.get() : nullptr) {}
 
 bool SceneBuilder::build() {
   impl_.hash = description_.hash;
-  impl_.textures.setBudget(options_.textureMemory);
+  impl_.textures->setBudget(options_.textureMemory);
   for (const Block& block : description_.blocks) addTop(block);
   addCamera();
   addIntegrator();
   if (diagnostics_.hasErrors()) return false;
-  impl_.commit();
+  impl_.commit(options_.cache ? options_.cache->world_ : nullptr);
+  fillCache();
   if (const std::size_t n = impl_.world.dropped())
     diagnostics_.warning({},
                          fmt::format("left out {} triangles that have no area or a corner that is "
@@ -117,10 +138,56 @@ bool SceneBuilder::isInvertible(const Affine& transform, Span place) {
 
 // ---------------------------------------------------------------- shapes
 std::shared_ptr<const Shape> SceneBuilder::shapeFor(const Block& block) {
-  const std::string key = shapeKey(block, description_);
-  if (const auto found = shapes_.find(key); found != shapes_.end()) return found->second;
-  const std::shared_ptr<const Shape> shape = create<Shape>(block);
-  return shapes_[key] = shape;
+  if (!known(block)) return nullptr;
+  const std::string key = shapeKey(block, description_, *registry_.find(block.kind, block.plugin));
+  if (key.empty()) return create<Shape>(block);
+  if (const auto found = shapes_.find(key); found != shapes_.end()) return found->second.shape;
+  if (options_.cache)
+    if (const auto before = options_.cache->shapes_.find(key);
+        before != options_.cache->shapes_.end() && before->second.isFresh())
+      return (shapes_[key] = takeShape(before->second, block)).shape;
+  return (shapes_[key] = makeShape(block)).shape;
+}
+
+const BuildCache::KeptShape& SceneBuilder::takeShape(const BuildCache::KeptShape& kept,
+                                                     const Block& block) {
+  ++use_.shapesTaken;
+  host_.setPlace(at(block.span));
+  for (const auto& [file, stamp] : kept.files)
+    if (options_.files) options_.files->insert(file);
+  for (const BuildCache::KeptShape::Said& said : kept.said) {
+    const Value* value = block.find(said.setting);
+    if (said.isNote)
+      host_.note(said.message);
+    else
+      host_.warn(value ? value->span : Span{}, said.message);
+  }
+  return kept;
+}
+
+BuildCache::KeptShape SceneBuilder::makeShape(const Block& block) {
+  ++use_.shapesMade;
+  HostRecord record;
+  host_.recordTo(&record);
+  BuildCache::KeptShape made;
+  made.shape = create<Shape>(block);
+  host_.recordTo(nullptr);
+  made.files = std::move(record.files);
+  for (const HostRecord::Said& said : record.said)
+    made.said.push_back({settingAt(said.span, block), said.message, said.isNote});
+  return made;
+}
+
+void SceneBuilder::fillCache() {
+  if (!options_.cache) return;
+  BuildCache& cache = *options_.cache;
+  const TextureUse textures = impl_.textures->use();
+  use_.texturesTaken = textures.taken, use_.texturesMade = textures.made;
+  use_.isWorldTaken = impl_.world.body() == cache.world_;
+  cache.use_ = use_;
+  cache.shapes_ = std::move(shapes_);
+  cache.textures_ = impl_.textures;
+  cache.world_ = impl_.world.body();
 }
 
 void SceneBuilder::addShape(const Block& block, const Block* outerBrdf) {

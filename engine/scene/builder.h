@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/build_cache.h"
 #include "engine/scene/scene_host.h"
 #include "engine/scene/scene_impl.h"
 
@@ -36,8 +37,12 @@ class SceneBuilder {
   void addShape(const Block& block, const Block* outerBrdf);
   void addMeshParts(const Block& block, const std::shared_ptr<const Shape>& shape,
                     const Block* brdf);
-  /// Shares one shape among blocks that say the same.
+  /// Shares one shape among blocks that say the same, in this build and the one before.
   std::shared_ptr<const Shape> shapeFor(const Block& block);
+  const BuildCache::KeptShape& takeShape(const BuildCache::KeptShape& kept, const Block& block);
+  BuildCache::KeptShape makeShape(const Block& block);
+  /// Leaves the cache what this build used, and nothing else.
+  void fillCache();
   /// Object of a placement that wears a brdf block (null: default lambert); -1 after an error.
   int addObject(const Block* brdf, const Affine& partToWorld);
   void place(Placement placement, const Block* brdf, const Value* emission, bool bothSides,
@@ -62,7 +67,8 @@ class SceneBuilder {
   Scene::Impl& impl_;
   SceneHost host_;
   Span place_;  ///< of the shape being placed
-  std::map<std::string, std::shared_ptr<const Shape>> shapes_;
+  std::map<std::string, BuildCache::KeptShape> shapes_;
+  BuildCache::Use use_;
 };
 
 }  // namespace vestige

@@ -14,8 +14,8 @@ LightHit seenFrom(const Surface& s, Vec3 from) noexcept {
 
 }  // namespace
 
-void Scene::Impl::commit() {
-  world.commit();
+void Scene::Impl::commit(const std::shared_ptr<const World::Body>& before) {
+  world.commit(before);
   for (std::size_t i = 0; i < ownedLights.size(); ++i) {
     ownedLights[i]->setScene(world.bounds());
     lightList.push_back(ownedLights[i].get());
@@ -53,7 +53,7 @@ const Camera& Scene::camera() const noexcept { return *impl_->camera; }
 Integrator& Scene::integrator() noexcept { return *impl_->integrator; }
 const std::string& Scene::integratorName() const noexcept { return impl_->integratorName; }
 const FilmSettings& Scene::film() const noexcept { return impl_->film; }
-TextureUse Scene::textureUse() const { return impl_->textures.use(); }
+TextureUse Scene::textureUse() const { return impl_->textures->use(); }
 std::size_t Scene::triangles() const noexcept { return impl_->world.triangles(); }
 std::uint64_t Scene::hash() const noexcept { return impl_->hash; }
 const ObjectInfo& Scene::object(int index) const noexcept {

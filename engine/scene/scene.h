@@ -15,6 +15,8 @@
 
 namespace vestige {
 
+class BuildCache;
+
 enum class PixelFilter { box, gaussian, blackmanHarris };
 
 struct FilmSettings {
@@ -59,6 +61,8 @@ struct BuildOptions {
   std::size_t textureMemory = TextureStore::kDefaultBudget;  ///< bytes, see TextureStore
   /// Receives the places of all files that were looked for, found or not; null: nobody asks.
   std::set<std::string>* files = nullptr;
+  /// What the build may take over from the one before with the same cache; null: nothing.
+  std::shared_ptr<BuildCache> cache = nullptr;
 };
 
 /// Null if `diagnostics` got an error: missing file, refused parameter, singular transform, ...

@@ -24,6 +24,7 @@ std::string SceneHost::find(const std::string& file, Span span, std::string& err
   for (const fs::path& path : tried) {
     const fs::path whole = fs::absolute(path, ignored).lexically_normal();
     if (files_) files_->insert(whole.string());
+    if (record_) record_->files.emplace(whole.string(), stampOf(whole.string()));
     if (fs::is_directory(whole, ignored)) {
       error = fmt::format("'{}' is a folder, not a file", whole.string());
       return "";
@@ -40,16 +41,18 @@ std::shared_ptr<const Texture> SceneHost::texture(const TextureRequest& request,
                                                   std::string& error) {
   const std::string file = find(request.file, request.span, error);
   if (file.empty()) return nullptr;
-  auto texture = textures_.texture(file, request, error);
+  auto texture = textures_.texture(file, request, error, before_);
   if (const std::string why = textures_.takeWarning(); !why.empty()) warn(request.span, why);
   return texture;
 }
 
 void SceneHost::warn(Span span, const std::string& message) {
+  if (record_) record_->said.push_back({span, message, false});
   diagnostics_.warning(span.file >= 0 ? span : place_, message);
 }
 
 void SceneHost::note(const std::string& message) {
+  if (record_) record_->said.push_back({{}, message, true});
   if (noted_.insert(message).second) diagnostics_.note(place_, message);
 }
 

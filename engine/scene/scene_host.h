@@ -1,19 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Host that plugins of a scene are created with: files beside the scene text, shared textures.
 #pragma once
+#include <map>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "engine/image/file_stamp.h"
 #include "engine/image/image.h"
 
 namespace vestige {
 
+/// What a plugin asked and said while it was created.
+struct HostRecord {
+  std::map<std::string, FileStamp> files;  ///< looked for, found or not
+  struct Said {
+    Span span;
+    std::string message;
+    bool isNote;
+  };
+  std::vector<Said> said;
+};
+
 class SceneHost final : public Host {
  public:
-  /// `files` receives the places of all files that are looked for; null: nobody asks.
+  /// `files` receives the places of all files that are looked for; null: nobody asks. `before` is
+  /// where textures that have not changed are taken from; null: nowhere.
   SceneHost(const SceneDesc& description, TextureStore& textures, Diagnostics& diagnostics,
-            std::set<std::string>* files)
-      : description_(description), textures_(textures), diagnostics_(diagnostics), files_(files) {}
+            std::set<std::string>* files, const TextureStore* before)
+      : description_(description),
+        textures_(textures),
+        diagnostics_(diagnostics),
+        files_(files),
+        before_(before) {}
 
   std::string find(const std::string& file, Span span, std::string& error) override;
   std::shared_ptr<const Texture> texture(const TextureRequest& request,
@@ -22,12 +41,16 @@ class SceneHost final : public Host {
   void note(const std::string& message) override;
   /// Where spans point that a plugin did not set: at the block it was made for.
   void setPlace(Span span) { place_ = span; }
+  /// From now on; null: no more.
+  void recordTo(HostRecord* record) { record_ = record; }
 
  private:
   const SceneDesc& description_;
   TextureStore& textures_;
   Diagnostics& diagnostics_;
   std::set<std::string>* files_;
+  const TextureStore* before_;
+  HostRecord* record_ = nullptr;
   Span place_;
   std::set<std::string> noted_;
 };

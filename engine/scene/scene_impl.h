@@ -13,7 +13,7 @@
 namespace vestige {
 
 struct Scene::Impl final : SceneView {
-  TextureStore textures;
+  std::shared_ptr<TextureStore> textures = std::make_shared<TextureStore>();
   World world;
   std::vector<Material> materials;
   std::vector<int> objectMaterial;                   ///< by Surface::object
@@ -31,8 +31,8 @@ struct Scene::Impl final : SceneView {
   std::uint64_t hash = 0;
   bool hasTextures = false;
 
-  /// After everything was added: builds the tree and the table of lights.
-  void commit();
+  /// After everything was added: builds the tree, see World::commit(), and the table of lights.
+  void commit(const std::shared_ptr<const World::Body>& before);
 
   using SceneView::intersect;
   bool intersect(const Ray& ray, Surface& surface) const noexcept override {

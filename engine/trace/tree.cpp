@@ -81,10 +81,18 @@ void fillRay(RTCRay& ray, const Ray& r, unsigned mask) noexcept {
 
 }  // namespace
 
+/// The tree of a mesh that is placed several times; several trees of all may share it.
+struct MeshTree {
+  std::shared_ptr<embree::Device> device;  ///< kept alive
+  embree::Scene scene;
+};
+
 struct Tree::Impl {
-  embree::Device device = embree::newDevice();
-  embree::Scene scene{rtcNewScene(device.get())};
-  std::vector<embree::Scene> instanced;
+  explicit Impl(std::shared_ptr<embree::Device> d) : device(std::move(d)) {}
+
+  std::shared_ptr<embree::Device> device;
+  embree::Scene scene{rtcNewScene(device->get())};
+  std::map<const Triangles*, std::shared_ptr<const MeshTree>> instanced;
   const std::vector<Item>* items = nullptr;
   Group groups[2];                  ///< opaque, translucent
   std::vector<int> unbounded;       ///< items tested one by one
@@ -103,36 +111,36 @@ struct Tree::Impl {
     itemOfGeometry[id] = item;
   }
   embree::Geometry triangleGeometry(const Triangles& t) const;
-  embree::Scene objectScene(const Triangles& t) const;
+  std::shared_ptr<const MeshTree> meshTree(const Triangles& t) const;
   void addInstance(RTCScene object, const Item& item, int index);
   void addGroup(Group& group, unsigned mask);
 };
 
 embree::Geometry Tree::Impl::triangleGeometry(const Triangles& t) const {
-  embree::Geometry g(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  embree::Geometry g(rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   auto* p = static_cast<float*>(rtcSetNewGeometryBuffer(
       g.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, t.positions().size()));
   auto* i = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(g.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, t.size()));
-  check(device.get(), "storing triangles");
+  check(device->get(), "storing triangles");
   for (const Vec3 v : t.positions()) *p++ = float(v.x), *p++ = float(v.y), *p++ = float(v.z);
   for (const auto& c : t.indices()) i = std::copy(c.begin(), c.end(), i);
   return g;
 }
 
-embree::Scene Tree::Impl::objectScene(const Triangles& t) const {
-  embree::Scene s(rtcNewScene(device.get()));
+std::shared_ptr<const MeshTree> Tree::Impl::meshTree(const Triangles& t) const {
+  embree::Scene s(rtcNewScene(device->get()));
   setFlags(s.get());
   const embree::Geometry g = triangleGeometry(t);
   rtcSetGeometryMask(g.get(), kEverything);
   rtcCommitGeometry(g.get());
   rtcAttachGeometry(s.get(), g.get());
   rtcCommitScene(s.get());
-  return s;
+  return std::shared_ptr<const MeshTree>(new MeshTree{device, std::move(s)});
 }
 
 void Tree::Impl::addInstance(RTCScene object, const Item& item, int index) {
-  const embree::Geometry g(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_INSTANCE));
+  const embree::Geometry g(rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_INSTANCE));
   rtcSetGeometryInstancedScene(g.get(), object);
   float m[12];
   for (int i = 0; i < 3; ++i)
@@ -143,7 +151,7 @@ void Tree::Impl::addInstance(RTCScene object, const Item& item, int index) {
 
 void Tree::Impl::addGroup(Group& group, unsigned mask) {
   if (group.members.empty()) return;
-  const embree::Geometry g(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+  const embree::Geometry g(rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(g.get(), unsigned(group.members.size()));
   rtcSetGeometryUserData(g.get(), &group);
   rtcSetGeometryBoundsFunction(
@@ -153,15 +161,18 @@ void Tree::Impl::addGroup(Group& group, unsigned mask) {
   attach(g.get(), mask, -1);
 }
 
-Tree::Tree() : impl_(std::make_unique<Impl>()) {}
+Tree::Tree() = default;
 Tree::~Tree() = default;
 
-void Tree::build(const std::vector<Item>& items) {
+void Tree::build(const std::vector<Item>& items, const Tree* before) {
+  const Impl* old = before ? before->impl_.get() : nullptr;
+  // One device for both: trees of different devices cannot be joined.
+  impl_ = std::make_unique<Impl>(old ? old->device
+                                     : std::make_shared<embree::Device>(embree::newDevice()));
   Impl& t = *impl_;
   t.items = &items;
   t.setFlags(t.scene.get());
   for (Group& g : t.groups) g.items = &items;
-  std::map<const Triangles*, RTCScene> objects;
   for (int k = 0; k < int(items.size()); ++k) {
     const Item& item = items[k];
     if (!item.triangles) {
@@ -172,15 +183,17 @@ void Tree::build(const std::vector<Item>& items) {
     } else if (item.baked) {
       t.attach(t.triangleGeometry(*item.triangles).get(), maskOf(item), k);
     } else {
-      RTCScene& object = objects[item.triangles];
-      if (!object) object = t.instanced.emplace_back(t.objectScene(*item.triangles)).get();
-      t.addInstance(object, item, k);
+      std::shared_ptr<const MeshTree>& mesh = t.instanced[item.triangles];
+      if (!mesh && old && old->instanced.contains(item.triangles))
+        mesh = old->instanced.at(item.triangles);
+      if (!mesh) mesh = t.meshTree(*item.triangles);
+      t.addInstance(mesh->scene.get(), item, k);
     }
   }
   t.addGroup(t.groups[0], kOpaque);
   t.addGroup(t.groups[1], kTranslucent);
   rtcCommitScene(t.scene.get());
-  check(t.device.get(), "building the tree");
+  check(t.device->get(), "building the tree");
 }
 
 bool Tree::closest(const Ray& ray, unsigned mask, TreeHit& hit) const noexcept {

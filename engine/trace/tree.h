@@ -36,8 +36,9 @@ class Tree {
   Tree();
   ~Tree();
 
-  /// `items` stay where they are as long as the tree lives. Throws where Embree fails.
-  void build(const std::vector<Item>& items);
+  /// `items` stay where they are as long as the tree lives. Trees of instanced meshes are shared
+  /// with `before`, if not null, where it has them. Throws where Embree fails.
+  void build(const std::vector<Item>& items, const Tree* before = nullptr);
 
   /// False: the ray meets nothing.
   bool closest(const Ray& ray, unsigned mask, TreeHit& hit) const noexcept;

@@ -30,7 +30,7 @@ Vec3 rounded(Exact a) noexcept { return {Real(a.x), Real(a.y), Real(a.z)}; }
 }  // namespace
 
 Triangles::Triangles(const TriangleMesh& mesh, const Affine& toSpace)
-    : source_(&mesh), side_(toSpace.determinant() < 0 ? Real(-1) : Real(1)) {
+    : source_(&mesh), toSpace_(toSpace), side_(toSpace.determinant() < 0 ? Real(-1) : Real(1)) {
   positions_.reserve(mesh.positions.size());
   for (const Vec3 p : mesh.positions) positions_.push_back(toSpace.point(p));
   if (mesh.normals.size() == mesh.positions.size()) {

@@ -10,6 +10,7 @@ class Triangles {
   /// `mesh` must outlive this.
   Triangles(const TriangleMesh& mesh, const Affine& toSpace);
 
+  const Affine& toSpace() const noexcept { return toSpace_; }
   std::size_t size() const noexcept { return triangles_.size(); }
   std::size_t dropped() const noexcept { return dropped_; }
   const std::vector<Vec3>& positions() const noexcept { return positions_; }
@@ -41,6 +42,7 @@ class Triangles {
              const Edges& e) const noexcept;
 
   const TriangleMesh* source_;
+  Affine toSpace_;
   std::vector<Vec3> positions_;
   std::vector<Vec3> normals_;  ///< carried along but not unit, so that blending them commutes
   std::vector<std::array<std::uint32_t, 3>> triangles_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/trace/world.h"
 
+#include <cstring>
 #include <map>
 
 #include "engine/trace/embree.h"
@@ -42,51 +43,109 @@ Real shapeOffset(const Item& item, Vec3 object, Vec3 world) noexcept {
          std::max(maxAbsComponent(world), item.place.norm * maxAbsComponent(object));
 }
 
+// By bits: what is taken over must be what would be made, and -0 is not 0.
+bool isSame(const Affine& a, const Affine& b) noexcept {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+template <class Element>
+bool isSame(const std::vector<Element>& a, const std::vector<Element>& b) noexcept {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0);
+}
+bool isSame(const TriangleMesh& a, const TriangleMesh& b) noexcept {
+  return isSame(a.positions, b.positions) && isSame(a.normals, b.normals) && isSame(a.uvs, b.uvs) &&
+         isSame(a.triangles, b.triangles);
+}
+
+/// Of all but the light. A mesh without a shape, that of a light, is made anew by each scene.
+bool isSamePlace(const Placement& a, const Placement& b) noexcept {
+  if (a.shape != b.shape || a.object != b.object || a.closed != b.closed ||
+      a.translucent != b.translucent || !isSame(a.toWorld, b.toWorld))
+    return false;
+  return a.mesh == b.mesh || (!a.shape && a.mesh && b.mesh && isSame(*a.mesh, *b.mesh));
+}
+
 }  // namespace
 
-struct World::Impl {
-  std::vector<Placement> placements;
+struct World::Body {
+  /// Takes trees of meshes over from `before`, if not null.
+  Body(const std::vector<Placement>& placements, const Body* before);
+
   std::vector<Item> items;
-  std::vector<std::unique_ptr<Triangles>> meshes;
-  std::unique_ptr<Tree> tree;
+  std::map<const TriangleMesh*, TriangleMesh> own;  ///< of those that no shape keeps alive
+  std::map<const TriangleMesh*, std::shared_ptr<const Triangles>> meshes;
+  Tree tree;
   Patches patches;
   Bounds bounds;
   std::size_t dropped = 0, triangles = 0;
   bool translucent = false;
 
-  void prepareItems();
   void fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept;
+
+ private:
+  void addItem(Placement p);
+  void addTriangles(Item& item, const Body* before);
   void fillTriangle(Surface& s, const Item& item, const Ray& ray, TreeHit hit) const noexcept;
   void fillShape(Surface& s, const Item& item, const Ray& ray, const TreeHit& hit) const noexcept;
 };
 
-void World::Impl::prepareItems() {
+World::Body::Body(const std::vector<Placement>& placements, const Body* before) {
+  items.reserve(placements.size());
+  for (const Placement& p : placements) addItem(p);
   std::map<const TriangleMesh*, int> uses;
-  for (const Placement& p : placements)
-    if (p.mesh) ++uses[p.mesh];
-  std::map<const TriangleMesh*, const Triangles*> shared;
-  for (const Placement& p : placements) {
-    Item& item = items.emplace_back(p);
-    translucent |= p.translucent;
-    if (!p.mesh) {
-      item.bounds = p.shape->bounds();
+  for (const Item& item : items) ++uses[item.placement.mesh];
+  for (Item& item : items) {
+    translucent |= item.placement.translucent;
+    if (!item.placement.mesh) {
+      item.bounds = item.placement.shape->bounds();
       if (!item.bounds.isInfinite()) item.bounds = item.place.bounds(item.bounds);
     } else {
-      item.baked = uses[p.mesh] == 1;
-      const Triangles*& t = shared[p.mesh];
-      if (!t) {
-        meshes.push_back(std::make_unique<Triangles>(*p.mesh, item.baked ? p.toWorld : Affine{}));
-        t = meshes.back().get();
-        dropped += t->dropped(), triangles += t->size();
-      }
-      item.triangles = t;
-      item.bounds = item.baked ? t->bounds() : item.place.bounds(t->bounds());
+      item.baked = uses[item.placement.mesh] == 1;
+      addTriangles(item, before);
+      item.bounds =
+          item.baked ? item.triangles->bounds() : item.place.bounds(item.triangles->bounds());
     }
     if (!item.bounds.isInfinite()) bounds.add(item.bounds);
   }
+  patches.number(items);
+  tree.build(items, before ? &before->tree : nullptr);
 }
 
-void World::Impl::fillTriangle(Surface& s, const Item& item, const Ray& ray,
+void World::Body::addItem(Placement p) {
+  p.light = -1;  // the world's
+  if (p.mesh && !p.shape) p.mesh = &own.emplace(p.mesh, *p.mesh).first->second;
+  items.emplace_back(p);
+}
+
+/// Those of another item with the same mesh, here or in the world before, or new ones.
+void World::Body::addTriangles(Item& item, const Body* before) {
+  const TriangleMesh* mesh = item.placement.mesh;
+  std::shared_ptr<const Triangles>& t = meshes[mesh];
+  if (!t) {
+    const Affine toSpace = item.baked ? item.placement.toWorld : Affine{};
+    // A mesh of the world before is still there, so another one cannot lie at its address.
+    const auto old = before ? before->meshes.find(mesh) : meshes.end();
+    if (before && old != before->meshes.end() && isSame(old->second->toSpace(), toSpace))
+      t = old->second;
+    else
+      t = std::make_shared<Triangles>(*mesh, toSpace);
+    dropped += t->dropped(), triangles += t->size();
+  }
+  item.triangles = t.get();
+}
+
+struct World::Impl {
+  std::vector<Placement> placements;  ///< until commit()
+  std::shared_ptr<const Body> body;
+  std::vector<int> lights;  ///< by item
+
+  void fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept {
+    body->fill(s, ray, hit);
+    s.light = lights[std::size_t(hit.item)];
+  }
+};
+
+void World::Body::fillTriangle(Surface& s, const Item& item, const Ray& ray,
                                TreeHit hit) const noexcept {
   if constexpr (sizeof(Real) == 8) {  // Embree found the triangle in float; now where exactly
     const Ray local = item.baked ? ray : item.place.object(ray);
@@ -101,7 +160,7 @@ void World::Impl::fillTriangle(Surface& s, const Item& item, const Ray& ray,
   s.offset = triangleOffset(item, s, extent);
 }
 
-void World::Impl::fillShape(Surface& s, const Item& item, const Ray& ray,
+void World::Body::fillShape(Surface& s, const Item& item, const Ray& ray,
                             const TreeHit& hit) const noexcept {
   const Vec3 near = item.place.object(ray).at(hit.t);
   const SurfacePoint local = item.placement.shape->surface(near, hit.primitive);
@@ -111,14 +170,13 @@ void World::Impl::fillShape(Surface& s, const Item& item, const Ray& ray,
   s.offset = shapeOffset(item, local.position, s.position);
 }
 
-void World::Impl::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept {
+void World::Body::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept {
   const Item& item = items[hit.item];
   if (item.triangles)
     fillTriangle(s, item, ray, hit);
   else
     fillShape(s, item, ray, hit);
   s.object = item.placement.object;
-  s.light = item.placement.light;
   s.closed = item.placement.closed;
   s.primitive = hit.primitive;
   s.patch = patches.index(hit.item, hit.primitive);
@@ -131,43 +189,48 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::add(const Placement& placement) { impl_->placements.push_back(placement); }
 
-void World::commit() {
-  Impl& w = *impl_;
-  w.items.reserve(w.placements.size());
-  w.prepareItems();
-  w.patches.number(w.items);
-  w.tree = std::make_unique<Tree>();
-  w.tree->build(w.items);
+void World::commit(const std::shared_ptr<const Body>& before) {
+  std::vector<Placement> placements;
+  placements.swap(impl_->placements);
+  for (const Placement& p : placements) impl_->lights.push_back(p.light);
+  const auto isSameItem = [](const Item& item, const Placement& p) {
+    return isSamePlace(item.placement, p);
+  };
+  const bool isTaken = before && std::equal(before->items.begin(), before->items.end(),
+                                            placements.begin(), placements.end(), isSameItem);
+  impl_->body = isTaken ? before : std::make_shared<const Body>(placements, before.get());
 }
 
-std::size_t World::dropped() const noexcept { return impl_->dropped; }
-std::size_t World::triangles() const noexcept { return impl_->triangles; }
-const std::vector<Placement>& World::placements() const noexcept { return impl_->placements; }
-Bounds World::bounds() const noexcept { return impl_->bounds; }
-std::span<const Patch> World::patches() const noexcept { return impl_->patches.all(); }
+std::shared_ptr<const World::Body> World::body() const noexcept { return impl_->body; }
+std::size_t World::dropped() const noexcept { return impl_->body ? impl_->body->dropped : 0; }
+std::size_t World::triangles() const noexcept { return impl_->body ? impl_->body->triangles : 0; }
+Bounds World::bounds() const noexcept { return impl_->body ? impl_->body->bounds : Bounds{}; }
+std::span<const Patch> World::patches() const noexcept {
+  return impl_->body ? impl_->body->patches.all() : std::span<const Patch>{};
+}
 SurfacePoint World::patchPoint(int patch, Vec2 uv) const noexcept {
-  return impl_->patches.point(patch, uv);
+  return impl_->body->patches.point(patch, uv);
 }
 Real World::patchArea(int patch, Vec2 low, Vec2 high) const noexcept {
-  return impl_->patches.area(patch, low, high);
+  return impl_->body->patches.area(patch, low, high);
 }
 
 bool World::intersect(const Ray& ray, Surface& surface) const noexcept {
   TreeHit hit;
-  if (!impl_->tree || !impl_->tree->closest(ray, kEverything, hit)) return false;
+  if (!impl_->body || !impl_->body->tree.closest(ray, kEverything, hit)) return false;
   impl_->fill(surface, ray, hit);
   return true;
 }
 
 Real World::transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept {
-  if (!impl_->tree || !(ray.tMin < ray.tMax)) return 1;
-  if (impl_->tree->occluded(ray, kOpaque)) return 0;
-  if (!impl_->translucent) return 1;
+  if (!impl_->body || !(ray.tMin < ray.tMax)) return 1;
+  if (impl_->body->tree.occluded(ray, kOpaque)) return 0;
+  if (!impl_->body->translucent) return 1;
   Real left = 1;
   Ray rest = ray;
   for (int layer = 0;; ++layer) {
     TreeHit hit;
-    if (!impl_->tree->closest(rest, kTranslucent, hit)) return left;
+    if (!impl_->body->tree.closest(rest, kTranslucent, hit)) return left;
     if (layer == kMostLayers) return 0;
     Surface surface;
     impl_->fill(surface, ray, hit);

@@ -13,10 +13,12 @@ namespace vestige {
 /// What one object of the world is: a shape (or one part of a mesh) at a place.
 struct Placement {
   std::shared_ptr<const Shape> shape;  ///< kept alive
-  const TriangleMesh* mesh = nullptr;  ///< the part of the shape that this is; null: analytic
-  Affine toWorld;                      ///< not singular
-  int object = -1;                     ///< handed back in Surface::object
-  int light = -1;                      ///< handed back in Surface::light
+  /// The part of the shape that this is, or a mesh without a shape, which is copied; null:
+  /// analytic.
+  const TriangleMesh* mesh = nullptr;
+  Affine toWorld;   ///< not singular
+  int object = -1;  ///< handed back in Surface::object
+  int light = -1;   ///< handed back in Surface::light
   bool closed = false;
   /// Whether the surface may let light through: then transmittance() asks `opacity`.
   bool translucent = false;
@@ -31,9 +33,15 @@ class World {
 
   /// Before commit(). The same mesh pointer placed several times becomes instances of one tree.
   void add(const Placement& placement);
+  /// What rays meet, without the lights that they find there. Nobody changes it any more, so worlds
+  /// on different threads may share one.
+  struct Body;
   /// Builds the tree. Vertices that are not finite and degenerate triangles were dropped: how many
-  /// is told by dropped().
-  void commit();
+  /// is told by dropped(). Where all placements but their lights are those of the world `before`,
+  /// its body serves as it is; else trees of meshes that stayed are taken from it. Answers are the
+  /// same to the bit as without.
+  void commit(const std::shared_ptr<const Body>& before = nullptr);
+  std::shared_ptr<const Body> body() const noexcept;
   std::size_t dropped() const noexcept;
 
   /// First surface along the ray; false: none.
@@ -57,7 +65,6 @@ class World {
   Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept;
 
   std::size_t triangles() const noexcept;  ///< without instances
-  const std::vector<Placement>& placements() const noexcept;
   static std::string embreeVersion();
 
  private:

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include <assimp/config.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
@@ -17,6 +18,23 @@
 
 namespace vestige::mesh {
 namespace {
+
+/// Assimp's way to files, with a witness: some meshes name others.
+class WitnessedFiles final : public Assimp::DefaultIOSystem {
+ public:
+  explicit WitnessedFiles(const Witness& witness) : witness_(witness) {}
+  bool Exists(const char* file) const override {
+    witness_(file);
+    return DefaultIOSystem::Exists(file);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    witness_(file);
+    return DefaultIOSystem::Open(file, mode);
+  }
+
+ private:
+  const Witness& witness_;
+};
 
 /// Meshes of one material go into one part, unless only some have normals or uv.
 using PartKey = std::tuple<unsigned, bool, bool>;
@@ -133,14 +151,17 @@ std::size_t flattenBrokenFaces(aiScene& scene) {
 }
 
 /// An OBJ file names its materials' file; where that is missing they are all grey.
-void warnOfMissingMaterials(const std::string& path, std::vector<std::string>& warnings) {
+void warnOfMissingMaterials(const std::string& path, const Witness& witness,
+                            std::vector<std::string>& warnings) {
   std::ifstream in(path);
   std::string line;
   for (int k = 0; k < 200 && std::getline(in, line); ++k) {
     if (line.rfind("mtllib ", 0) != 0) continue;
     std::string name = line.substr(7);
     name.erase(name.find_last_not_of(" \t\r\n") + 1);
-    if (!std::filesystem::exists(std::filesystem::path(path).parent_path() / name))
+    const std::filesystem::path file = std::filesystem::path(path).parent_path() / name;
+    witness(file.string());
+    if (!std::filesystem::exists(file))
       warnings.push_back("the mesh's material file \"" + name + "\" is not beside it");
   }
 }
@@ -187,8 +208,9 @@ std::string extensionOf(const std::string& path) {
   return e;
 }
 
-Imported import(const std::string& path, const Options& options, Span span) {
+Imported import(const std::string& path, const Options& options, const Witness& witness) {
   Assimp::Importer importer;
+  importer.SetIOHandler(new WitnessedFiles(witness));  // which it deletes
   checkFile(path, importer);
   Imported made;
   const aiScene* scene = importer.ReadFile(path, 0);
@@ -204,10 +226,11 @@ Imported import(const std::string& path, const Options& options, Span span) {
     if (triangles.triangles.empty()) continue;
     MeshPart& part = made.parts.emplace_back();
     part.mesh = std::move(triangles);
-    convertMaterial(*scene, *scene->mMaterials[std::get<0>(key)], path, span, part, made.warnings);
+    convertMaterial(*scene, *scene->mMaterials[std::get<0>(key)], path, witness, part,
+                    made.warnings);
   }
   if (made.parts.empty()) throw ReadError("holds no triangles");
-  if (extensionOf(path) == "obj") warnOfMissingMaterials(path, made.warnings);
+  if (extensionOf(path) == "obj") warnOfMissingMaterials(path, witness, made.warnings);
   std::sort(made.warnings.begin(), made.warnings.end());
   made.warnings.erase(std::unique(made.warnings.begin(), made.warnings.end()), made.warnings.end());
   return made;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a file to triangles, by Assimp.
 #pragma once
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,8 +31,11 @@ struct Imported {
   std::vector<std::string> warnings;  ///< about materials
 };
 
-/// Throws ReadError. `span` goes into the blocks of the materials.
-Imported import(const std::string& path, const Options& options, Span span);
+/// Told of every file before it is looked for.
+using Witness = std::function<void(const std::string& file)>;
+
+/// Throws ReadError.
+Imported import(const std::string& path, const Options& options, const Witness& witness);
 
 /// Lower case, without the dot.
 std::string extensionOf(const std::string& path);

@@ -15,12 +15,12 @@ namespace {
 /// Reads one material and writes it in the words of the scene language.
 class Converter {
  public:
-  Converter(const aiScene& scene, const aiMaterial& from, const std::string& meshPath, Span span,
-            std::vector<std::string>& warnings)
+  Converter(const aiScene& scene, const aiMaterial& from, const std::string& meshPath,
+            const Witness& witness, std::vector<std::string>& warnings)
       : scene_(scene),
         from_(from),
         folder_(std::filesystem::path(meshPath).parent_path()),
-        span_(span),
+        witness_(witness),
         warnings_(warnings) {}
 
   void gltf(MeshPart& part);
@@ -43,12 +43,11 @@ class Converter {
 
   std::shared_ptr<Block> block(const char* kind, const char* plugin) const {
     auto b = std::make_shared<Block>();
-    b->kind = kind, b->plugin = plugin;  // no span: it moves with the mesh, not with the text
+    b->kind = kind, b->plugin = plugin;  // no spans: it moves with the mesh, not with the text
     return b;
   }
   void set(Block& b, const char* name, Value value) const {
-    value.span = span_;
-    b.settings.push_back({name, std::move(value), span_});
+    b.settings.push_back({name, std::move(value), {}});
   }
 
   /// The texture's file, absolute; "" where there is none or none that can be used.
@@ -72,7 +71,7 @@ class Converter {
   const aiScene& scene_;
   const aiMaterial& from_;
   std::filesystem::path folder_;
-  Span span_;
+  const Witness& witness_;
   std::vector<std::string>& warnings_;
 };
 
@@ -103,6 +102,7 @@ std::string Converter::textureFile(aiTextureType type) {
   }
   for (const std::string& candidate : {name, decoded(name)}) {
     const std::filesystem::path file = std::filesystem::absolute(folder_ / candidate);
+    witness_(file.lexically_normal().string());
     std::error_code ignored;
     if (std::filesystem::is_regular_file(file, ignored)) return file.lexically_normal().string();
   }
@@ -129,7 +129,7 @@ Value Converter::looked(aiTextureType type, Colour factor, const char* channel,
   set(*image, "channel", textValue(channel));
   set(*image, "scale_value", colourValue(factor.r, factor.g, factor.b));
   Value v;
-  v.kind = Value::Kind::block, v.block = image, v.span = span_;
+  v.kind = Value::Kind::block, v.block = image;
   return v;
 }
 
@@ -137,9 +137,7 @@ Value Converter::emission(double strength) {
   Colour c = colour("$clr.emissive", {0, 0, 0});
   c = {c.r * strength, c.g * strength, c.b * strength};
   if (c.r <= 0 && c.g <= 0 && c.b <= 0) return {};
-  Value v = looked(aiTextureType_EMISSIVE, c, "rgb", "");
-  v.span = span_;
-  return v;
+  return looked(aiTextureType_EMISSIVE, c, "rgb", "");
 }
 
 /// Metallic and roughness as the glTF 2.0 specification has them: g and b of one image.
@@ -194,11 +192,11 @@ void Converter::mtl(MeshPart& part) {
 }  // namespace
 
 void convertMaterial(const aiScene& scene, const aiMaterial& from, const std::string& meshPath,
-                     Span span, MeshPart& part, std::vector<std::string>& warnings) {
+                     const Witness& witness, MeshPart& part, std::vector<std::string>& warnings) {
   aiString name;
   from.Get(AI_MATKEY_NAME, name);
   part.name = name.C_Str();
-  Converter converter(scene, from, meshPath, span, warnings);
+  Converter converter(scene, from, meshPath, witness, warnings);
   const std::string kind = extensionOf(meshPath);
   if (kind == "gltf" || kind == "glb")
     converter.gltf(part);

@@ -9,6 +9,6 @@ namespace vestige::mesh {
 
 /// Fills brdf, emission and name of the part; `warnings` receives what could not be taken over.
 void convertMaterial(const aiScene& scene, const aiMaterial& from, const std::string& meshPath,
-                     Span span, MeshPart& part, std::vector<std::string>& warnings);
+                     const Witness& witness, MeshPart& part, std::vector<std::string>& warnings);
 
 }  // namespace vestige::mesh

@@ -33,8 +33,12 @@ class Mesh final : public MeshShape {
     if (path.empty()) throw PluginError(kFile, error);
     const mesh::Options options{v.text(kHandedness) != "left", v.flag(kSmooth),
                                 v.real(kSmoothAngle)};
+    const auto witness = [&](const std::string& other) {
+      std::string ignored;
+      host.find(other, v.span(kFile), ignored);
+    };
     try {
-      mesh::Imported made = mesh::import(path, options, v.span(kFile));
+      mesh::Imported made = mesh::import(path, options, witness);
       parts_ = std::move(made.parts);
       if (made.dropped > 0)
         host.warn(v.span(kFile), std::to_string(made.dropped) +
