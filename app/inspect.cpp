@@ -42,11 +42,11 @@ int runInspect(const InspectRequest& r) {
   const LoadedScene loaded = loadScene(r.input, registry, Stage::built, r.build);
   printDiagnostics(loaded.text);
   if (!loaded.scene) return kSceneWrong;
-  const Film film = makeFilm(*loaded.scene, r.width, r.height, nullptr, {});
-  if (r.x >= film.width() || r.y >= film.height())
+  const FilmShape film = filmShape(*loaded.scene, r.width, r.height, nullptr);
+  if (r.x >= film.width || r.y >= film.height)
     throw Failure(kCommandLineWrong,
                   fmt::format("pixel {} {} lies outside of the picture, which is {} x {}", r.x, r.y,
-                              film.width(), film.height()));
+                              film.width, film.height));
   RecordedPath path;
   const Rgb radiance = inspectSample(*loaded.scene, film, r.x, r.y, r.sample, r.render, path);
   if (!r.svg.empty()) writeDrawing(r.svg, path, loaded);
@@ -55,7 +55,7 @@ int runInspect(const InspectRequest& r) {
     return kFine;
   }
   std::cout << fmt::format("pixel {} {} of {} x {}, sample {}: radiance <{:.4g}, {:.4g}, {:.4g}>\n",
-                           r.x, r.y, film.width(), film.height(), r.sample, radiance.r, radiance.g,
+                           r.x, r.y, film.width, film.height, r.sample, radiance.r, radiance.g,
                            radiance.b);
   if (path.vertices.empty())
     std::cout << fmt::format("integrator {} tells nothing about its paths\n",

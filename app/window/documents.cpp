@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that the window reads and writes, and the editor that it opens.
-#include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "app/output.h"
 #include "app/window/layers.h"
@@ -118,10 +118,14 @@ void Window::openInEditor(const lang::Place& place) {
   const char* wanted = std::getenv("VISUAL");
   if (!wanted || !*wanted) wanted = std::getenv("EDITOR");
   const std::string editor = wanted && *wanted ? wanted : "code";
-  const std::string name = std::filesystem::path(editor).filename().string();
+  const std::string name =
+      std::filesystem::path(editor.substr(0, editor.find(' '))).filename().string();
   const auto starts = [&](const char* word) { return name.rfind(word, 0) == 0; };
   const std::string line = std::to_string(place.line), column = std::to_string(place.column);
-  std::vector<std::string> words = {editor};
+  std::vector<std::string> words;  // "code --wait"
+  std::istringstream given(editor);
+  for (std::string word; given >> word;) words.push_back(word);
+  if (words.empty()) return;
   if (starts("code") || starts("codium"))
     words.insert(words.end(), {"--goto", place.file + ':' + line + ':' + column});
   else if (starts("subl") || starts("zed"))
@@ -133,8 +137,18 @@ void Window::openInEditor(const lang::Place& place) {
   std::vector<char*> arguments;
   for (std::string& w : words) arguments.push_back(w.data());
   arguments.push_back(nullptr);
+  posix_spawnattr_t attributes;  // ours ignores its children's ends; the editor may have its own
+  posix_spawnattr_init(&attributes);
+  sigset_t usual;
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGCHLD);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t child = 0;
-  if (posix_spawnp(&child, arguments[0], nullptr, nullptr, arguments.data(), environ) != 0)
+  const int failed =
+      posix_spawnp(&child, arguments[0], nullptr, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  if (failed != 0)
     return say(fmt::format("cannot start the editor '{}': set EDITOR; the place is {}:{}", editor,
                            place.file, place.line));
   say(fmt::format("{} opens {}:{}", name, place.file, place.line));

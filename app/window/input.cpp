@@ -58,9 +58,10 @@ void Window::onKey(int key, int mods) {
   const bool isControl = mods & GLFW_MOD_CONTROL;
   switch (key) {
     case GLFW_KEY_ESCAPE:
-      if (inspection_ || isRegion_ || isPicking_)
+      if (inspection_ || isRegion_ || isPicking_) {
+        if (preview_) preview_->forgetInspection();
         inspection_.reset(), isRegion_ = isPicking_ = false;
-      else if (wish_.region)
+      } else if (wish_.region)
         wish_.region.reset(), restart(wish_.picture);
       break;
     case GLFW_KEY_Q:
@@ -74,7 +75,7 @@ void Window::onKey(int key, int mods) {
       break;
     case GLFW_KEY_C:
       if (const auto c = camera()) {
-        glfwSetClipboardString(window_, cameraText(*c).c_str());
+        glfwSetClipboardString(window_, cameraText(placed(*c, cameraSchema())).c_str());
         say("the camera is in the clipboard, as text for the scene");
       }
       break;
@@ -91,7 +92,7 @@ void Window::onKey(int key, int mods) {
       say("click at what is to be sharp, and to turn around");
       break;
     case GLFW_KEY_F5:
-      restart(wish_.reload);
+      readAgain();
       break;
     case GLFW_KEY_F12:
       wantsShot_ = true;
@@ -163,7 +164,7 @@ void Window::onButton(int button, bool isDown, int mods) {
     if (mods & GLFW_MOD_CONTROL && button == GLFW_MOUSE_BUTTON_LEFT)
       button_ = GLFW_MOUSE_BUTTON_LAST;  // moves the sheet
     const auto at = pixelAt(x, y);
-    isWipe_ = look_.versus == Versus::wipe && at &&
+    isWipe_ = look_.versus == Versus::wipe && other_.width > 0 && at &&
               std::abs(double(at->x) - look_.wipe * sheet_.width) * sheet_.zoom < 8;
     return;
   }
@@ -174,8 +175,9 @@ void Window::onButton(int button, bool isDown, int mods) {
     isWipe_ = false;
     return;
   }
-  if (isRegion_ && wasDragged) {
+  if (isRegion_) {
     isRegion_ = false;
+    if (!wasDragged) return;
     const auto share = [](double at, double corner, double size) {
       return std::clamp((at - corner) / std::max(1.0, size), 0.0, 1.0);
     };

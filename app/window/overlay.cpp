@@ -60,13 +60,14 @@ void Window::drawPath(ImDrawList& list) {
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     const PathVertex& v = vertices[k];
     const bool isGone = v.surface.object < 0;
-    const Vec3 at = isGone && from
-                        ? *from - Real(0.5) *
-                                      length(open_->scene().view().bounds().isEmpty()
-                                                 ? Vec3{1, 1, 1}
-                                                 : open_->scene().view().bounds().size()) *
-                                      v.toPrev
-                        : v.surface.position;
+    const Vec3 at =
+        isGone && from
+            ? *from - Real(0.5) *
+                          length(inspection_->open->scene().view().bounds().isEmpty()
+                                     ? Vec3{1, 1, 1}
+                                     : inspection_->open->scene().view().bounds().size()) *
+                          v.toPrev
+            : v.surface.position;
     if (from) line(*from, at, kBehind, 5), line(*from, at, kRay, 2);
     from = at;
     if (isGone) break;

@@ -24,6 +24,7 @@ std::string shortened(std::string text) {
 
 constexpr float kPanel = 350, kStatus = 26;
 constexpr int kTexturePixels = 220;
+constexpr double kMostPixels = 16384;  ///< of a side of the film
 const char* const kBounds[] = {"as traced", "pixel", "local", "global", "safe"};
 constexpr Bound kBoundValues[] = {Bound::none, Bound::pixel, Bound::local, Bound::global,
                                   Bound::safe};
@@ -159,9 +160,12 @@ void Window::drawLightPanel() {
     preview_->want(wish_);
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("a pixel; 0: what the scene says");
-  int width = wish_.width > 0 ? wish_.width : sheet_.width;
+  int width = sheet_.width;
   if (ImGui::InputInt("width", &width, 64, 256, ImGuiInputTextFlags_EnterReturnsTrue)) {
-    wish_.width = std::clamp(width, 1, 16384), wish_.height = 0;
+    // The other side follows from the film's shape, and must not be larger either.
+    const double most =
+        kMostPixels * std::min(1.0, double(sheet_.width) / std::max(1, sheet_.height));
+    wish_.width = std::clamp(width, 1, std::max(1, int(most))), wish_.height = 0;
     isFitted_ = true;
     restart(wish_.picture);
   }
@@ -193,13 +197,14 @@ void Window::drawCameraPanel() {
   row("location", view->location);
   row("look_at", view->lookAt);
   for (const char* number : {"angle", "aperture", "focus_distance"}) {
-    const auto value = numberOf(*block, cameraSchema(), number);
+    const Block inHand = placed(*block, cameraSchema());
+    const auto value = numberOf(inHand, cameraSchema(), number);
     if (!value) continue;
+    const Parameter& row = *cameraSchema().find(number);
     auto x = float(*value);
     if (ImGui::DragFloat(number, &x, std::max(0.001f, std::abs(x) * 0.01f), 0, 0, "%.4g")) {
       keepForUndo();
-      // Anything the camera refuses is told and changes nothing.
-      useCamera(withNumber(withView(*block, cameraSchema(), *view), number, double(x)));
+      useCamera(withNumber(inHand, number, std::clamp(double(x), row.low, row.high)));
     }
   }
   if (ImGui::Button("copy as text")) onKey(GLFW_KEY_C, 0);
@@ -213,12 +218,14 @@ void Window::drawCameraPanel() {
 
 void Window::drawComparePanel() {
   if (!ImGui::CollapsingHeader("Compare, save")) return;
-  ImGui::InputText("file", file_, sizeof file_);
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("to save to or to compare with: .exr and .hdr keep radiance");
-  if (ImGui::Button("save")) savePicture(file_);
+  ImGui::InputText("##save", file_, sizeof file_);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("to save to: .exr and .hdr keep radiance");
   ImGui::SameLine();
-  if (ImGui::Button("compare with file")) openReference(file_);
+  if (ImGui::Button("save")) savePicture(file_);
+  ImGui::InputText("##compare", reference_, sizeof reference_);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("a picture to compare with");
+  ImGui::SameLine();
+  if (ImGui::Button("compare")) openReference(reference_);
   if (ImGui::Button("keep this picture")) keepAsOther();
   if (other_.width == 0) return;
   wrapped("beside: " + otherName_);
@@ -247,7 +254,8 @@ void Window::drawPixelPanel() {
   const std::size_t stride = means->channels.size();
   const float* c = &means->pixels[(std::size_t(py) * means->width + px) * stride];
   text(fmt::format("radiance {:.5g}  {:.5g}  {:.5g}", c[0], c[1], c[2]));
-  for (std::size_t i = 3; i < stride; ++i) text(fmt::format("{} {:.10g}", means->channels[i], c[i]));
+  for (std::size_t i = 3; i < stride; ++i)
+    text(fmt::format("{} {:.10g}", means->channels[i], c[i]));
 }
 
 void Window::drawInspectorPanel() {
@@ -365,7 +373,7 @@ void Window::drawTexturePanel() {
 void Window::drawComplaints() {
   if (!preview_) return;
   const Status s = preview_->status();
-  if (s.complaints.empty()) return;
+  if (s.complaints.empty() || (hidesWarnings_ && !s.isWrong)) return;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({12, 12}, ImGuiCond_Always);
   ImGui::SetNextWindowSizeConstraints(
@@ -373,9 +381,10 @@ void Window::drawComplaints() {
   ImGui::SetNextWindowBgAlpha(0.88f);
   ImGui::PushStyleColor(ImGuiCol_Border,
                         s.isWrong ? IM_COL32(255, 80, 60, 255) : IM_COL32(230, 180, 60, 255));
-  ImGui::Begin(s.isWrong ? "The scene has errors: an older picture is shown###complaints"
+  bool isOpen = true;
+  ImGui::Begin(s.isWrong ? "Not what is wanted: an older picture is shown###complaints"
                          : "The scene has warnings###complaints",
-               nullptr,
+               s.isWrong ? nullptr : &isOpen,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_HorizontalScrollbar);
   int shown = 0;
@@ -398,6 +407,7 @@ void Window::drawComplaints() {
   }
   ImGui::End();
   ImGui::PopStyleColor();
+  if (!isOpen) hidesWarnings_ = true;
 }
 
 void Window::drawStatus() {

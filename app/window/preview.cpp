@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <new>
 #include <sstream>
+#include <string_view>
+
+#include "app/crash.h"
 
 #include "engine/scene/scene_impl.h"
 #include "lang/source.h"
@@ -13,9 +17,24 @@ namespace {
 
 constexpr int kFinest = 2, kCoarsest = 64;   ///< the first picture's pixels, in pixels
 constexpr double kSoon = 0.02, kLate = 0.1;  ///< seconds that the first picture should take
+constexpr double kStarving = 0.5;            ///< seconds without any picture
 constexpr int kFewPixels = 96 * 96;          ///< no coarser picture is needed of so few
 constexpr int kMostInPass = 4;               ///< samples a pixel between two pictures
 constexpr int kFirstParticles = 20000, kMoreParticles = 4;  ///< then so many times as many
+
+/// The one that counts.
+const Block* lastIntegrator(const SceneDesc& text) {
+  const Block* last = nullptr;
+  for (const Block& b : text.blocks)
+    if (b.kind == "integrator") last = &b;
+  return last;
+}
+
+std::string firstError(const Diagnostics& diagnostics) {
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.severity == Severity::error) return d.message;
+  return "";
+}
 
 /// Numbers of particles, growing, for an integrator that shoots some; {0} for the others.
 std::vector<std::int64_t> particleRounds(const OpenScene& open, const BuildOptions& build) {
@@ -23,9 +42,9 @@ std::vector<std::int64_t> particleRounds(const OpenScene& open, const BuildOptio
   const Parameter* row = schema ? schema->find("particles") : nullptr;
   if (!row) return {0};
   auto wanted = std::int64_t(row->initial.v[0]);
-  for (const Block& b : open.loaded.text.scene.blocks)
-    if (b.kind == "integrator" && b.plugin == open.scene().integratorName())
-      if (const Value* given = b.find("particles")) wanted = std::int64_t(given->v[0]);
+  const Block* b = lastIntegrator(open.loaded.text.scene);
+  if (b && b->plugin == open.scene().integratorName())
+    if (const Value* given = b->find("particles")) wanted = std::int64_t(given->v[0]);
   for (const auto& [name, value] : build.settings)
     if (name == "particles") wanted = std::int64_t(value.v[0]);
   std::vector<std::int64_t> rounds;
@@ -36,8 +55,9 @@ std::vector<std::int64_t> particleRounds(const OpenScene& open, const BuildOptio
 
 }  // namespace
 
-Preview::Preview(SceneInput input, RenderOptions render, std::function<void()> wake)
-    : input_(std::move(input)), render_(std::move(render)), wake_(std::move(wake)) {
+Preview::Preview(SceneInput input, RenderOptions render, const Wish& first,
+                 std::function<void()> wake)
+    : input_(std::move(input)), render_(std::move(render)), wake_(std::move(wake)), wish_(first) {
   thread_ = std::thread([this] { work(); });
 }
 
@@ -66,6 +86,12 @@ void Preview::inspect(int x, int y, std::uint32_t sample) {
   changed_.notify_all();
 }
 
+void Preview::forgetInspection() {
+  const std::lock_guard lock(mutex_);
+  inspection_.reset();
+  requests_.clear();
+}
+
 std::shared_ptr<const Snapshot> Preview::snapshot() const {
   const std::lock_guard lock(mutex_);
   return snapshot_;
@@ -87,8 +113,14 @@ std::set<std::string> Preview::files() const {
   return files_;
 }
 
+std::filesystem::file_time_type Preview::readAt() const {
+  const std::lock_guard lock(mutex_);
+  return readAt_;
+}
+
 // ---------------------------------------------------------------- the working thread
 void Preview::work() {
+  useCrashStack();
   for (;;) {
     Wish wish;
     bool isFresh;
@@ -99,35 +131,50 @@ void Preview::work() {
       wish = wish_, isFresh = isFresh_;
       isFresh_ = cancel_ = false;
     }
-    if (wish.isPaused) setPhase("paused");
-    if (isFresh && !wish.isPaused) {
-      wished_ = secondsNow(), hasFirst_ = false;
-      try {
-        if (makeReady(wish)) renderPicture(wish);
-      } catch (const std::exception& e) {
-        fail(e.what());
-      }
+    try {
+      doWish(wish, isFresh);
+    } catch (const std::bad_alloc&) {
+      film_.reset();
+      fail("out of memory");
+    } catch (const std::exception& e) {
+      film_.reset();
+      fail(e.what());
     }
-    answerRequests(wish);
   }
 }
 
+void Preview::doWish(const Wish& wish, bool isFresh) {
+  if (isFresh && wish.isPaused) setPhase("paused");
+  if (isFresh && !wish.isPaused) {
+    wished_ = secondsNow(), hasFirst_ = false;
+    if (makeReady(wish)) renderPicture(wish);
+  }
+  if (isPrepared_) answerRequests(wish);
+  const std::lock_guard lock(mutex_);
+  if (!isPrepared_) requests_.clear();  // nothing can be traced
+}
+
 bool Preview::makeReady(const Wish& wish) {
-  const bool isStale = !open_ || wish.reload != done_.reload;
-  if (isStale) {
-    // Errors stay on show until the next reading, and with them the picture before.
-    if (!load(wish)) {
-      done_.reload = wish.reload;
-      return false;
-    }
+  if (!open_ || wish.reload != done_.reload) {
+    isTextWrong_ = !load(wish);
+    if (isTextWrong_) setPhase("waiting for a save");
     done_ = wish;
     done_.way = done_.view = -1;
   }
-  return !status().isWrong && renew(wish);
+  {
+    // What an earlier wish could not have is forgotten; what is wrong with the text is not.
+    const std::lock_guard lock(mutex_);
+    status_.isWrong = isTextWrong_, status_.complaints = textComplaints_;
+  }
+  return !isTextWrong_ && renew(wish);
 }
 
 bool Preview::load(const Wish& wish) {
   setPhase("reading");
+  {
+    const std::lock_guard lock(mutex_);
+    readAt_ = std::filesystem::file_time_type::clock::now();
+  }
   auto fresh = std::make_shared<OpenScene>(loadRegistry(input_.pluginPaths));
   std::set<std::string> files = {input_.file};
   BuildOptions build = wish.build;
@@ -150,25 +197,26 @@ bool Preview::load(const Wish& wish) {
   if (const Schema* s = fresh->registry.schema("camera", fresh->camera.plugin))
     fresh->cameraSchema = *s;
   if (isFine) fresh->integrators = fresh->registry.names("integrator");
-  const std::lock_guard lock(mutex_);
-  status_.isWrong = !isFine;
   if (!isFine) return false;
-  open_ = fresh, shown_ = fresh;
+  std::shared_ptr<const OpenScene> before = fresh;  // dies without the lock
+  {
+    const std::lock_guard lock(mutex_);
+    shown_.swap(before);
+    inspection_.reset();
+  }
+  open_ = fresh;
+  isPrepared_ = isLastRound_ = false;
+  film_.reset();
   return true;
 }
 
 void Preview::complainAbout(const LoadedScene& loaded) {
-  std::vector<Complaint> complaints;
+  textComplaints_.clear();
   for (const Diagnostic& d : loaded.text.diagnostics.list()) {
     std::ostringstream text;
     lang::print(text, d, *loaded.text.sources, false);
-    complaints.push_back({d.severity, text.str(), lang::locate(d.span, *loaded.text.sources)});
+    textComplaints_.push_back({d.severity, text.str(), lang::locate(d.span, *loaded.text.sources)});
   }
-  {
-    const std::lock_guard lock(mutex_);
-    status_.complaints.swap(complaints);
-  }
-  wake_();
 }
 
 /// Camera and integrator, where they are not yet as wished.
@@ -179,53 +227,72 @@ bool Preview::renew(const Wish& wish) {
     if (wish.camera) text.blocks.push_back(*wish.camera);
     renewCamera(open_->scene(), text, open_->registry, diagnostics);
   }
-  if (wish.way != done_.way)
+  if (wish.way != done_.way) {
     renewIntegrator(open_->scene(), text, open_->registry, wish.build, diagnostics);
+    isPrepared_ = isLastRound_ = false;
+  }
   done_ = wish;
   if (!diagnostics.hasErrors()) return true;
-  fail(diagnostics.list().front().message);
+  fail(firstError(diagnostics));
   return false;
 }
 
+FilmShape Preview::shapeFor(const Wish& wish) const {
+  return filmShape(open_->scene(), wish.width, wish.height,
+                   wish.region ? wish.region->data() : nullptr);
+}
+
 Film Preview::filmFor(const Wish& wish, int scale) const {
-  const Film whole = makeFilm(open_->scene(), wish.width, wish.height, nullptr, {});
-  return makeFilm(open_->scene(), std::max(1, whole.width() / scale),
-                  std::max(1, whole.height() / scale), wish.region ? wish.region->data() : nullptr,
+  const FilmShape whole = shapeFor(wish);
+  return makeFilm(open_->scene(), std::max(1, whole.width / scale),
+                  std::max(1, whole.height / scale), wish.region ? wish.region->data() : nullptr,
                   wish.aovs);
 }
 
+/// Whether the film may get more samples. Where footprints go by the number of samples that was
+/// declared, a picture of more of them is another one from the first.
+bool Preview::canGoOn(const Wish& wish) const {
+  if (!film_ || !wish.isSamePicture(filmWish_)) return false;
+  if (wish.samples == filmWish_.samples) return true;
+  std::string bound = wish.build.footprint;
+  const Block* integrator = lastIntegrator(open_->loaded.text.scene);
+  const Value* block = integrator ? integrator->find("footprint") : nullptr;
+  if (bound.empty() && block && block->block) bound = block->block->plugin;
+  return bound.empty() || bound == "safe" || bound == "none";
+}
+
 void Preview::renderPicture(const Wish& wish) {
-  if (film_ && wish.isSamePicture(filmWish_)) {
-    if (renderStage(wish, *film_, 1, wish.samples, true)) setPhase("finished");
+  if (canGoOn(wish)) {
+    filmWish_ = wish;
+    if (renderStage(wish, *film_, 1, wish.samples)) setPhase("finished");
     return;
   }
   film_.reset();
-  const std::vector<std::int64_t> rounds = particleRounds(*open_, wish.build);
-  bool isPrepared = false;
-  for (const std::int64_t particles : rounds) {
-    if (particles > 0) {
+  const FilmShape shape = shapeFor(wish);
+  // Particles know nothing of the camera: once they have flown, they need not again.
+  const std::vector<std::int64_t> rounds = isLastRound_ && isPrepared_
+                                               ? std::vector<std::int64_t>{0}
+                                               : particleRounds(*open_, wish.build);
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    if (rounds[i] > 0) {
       BuildOptions build = wish.build;
-      build.settings.push_back({"particles", numberValue(double(particles))});
+      build.settings.push_back({"particles", numberValue(double(rounds[i]))});
       Diagnostics diagnostics;
+      isPrepared_ = false;
       if (!renewIntegrator(open_->scene(), open_->loaded.text.scene, open_->registry, build,
                            diagnostics))
-        return fail(diagnostics.list().front().message);
-      isPrepared = false;
+        return fail(firstError(diagnostics));
     }
-    Film film = filmFor(wish, 1);
-    if (particles == rounds.front() && film.width() * film.height() > kFewPixels) {
-      if (!renderCoarse(wish)) return;
-      isPrepared = true;
-    }
-    if (particles != rounds.back()) {
-      if (!renderStage(wish, film, 1, 1, isPrepared)) return;
+    isLastRound_ = i + 1 == rounds.size();
+    if (i == 0 && std::int64_t(shape.width) * shape.height > kFewPixels && !renderCoarse(wish))
+      return;
+    if (!isLastRound_) {
+      Film film = filmFor(wish, 1);
+      if (!renderStage(wish, film, 1, 1)) return;
       continue;
     }
-    film_ = std::move(film), filmWish_ = wish;
-    if (!renderStage(wish, *film_, 1, wish.samples, isPrepared)) {
-      if (film_->maxSamples() == 0) film_.reset();  // perhaps not even prepared
-      return;
-    }
+    film_ = filmFor(wish, 1), filmWish_ = wish;
+    if (!renderStage(wish, *film_, 1, wish.samples)) return;
   }
   setPhase("finished");
 }
@@ -235,22 +302,23 @@ bool Preview::renderCoarse(const Wish& wish) {
   Film film = filmFor(wish, coarse_);
   cancelCoarse_ = false;
   const double start = secondsNow();
-  const bool isWhole = renderStage(wish, film, coarse_, 1, false);
+  const bool isWhole = renderStage(wish, film, coarse_, 1);
   const double seconds = secondsNow() - start;
   if (seconds > kLate) coarse_ = std::min(kCoarsest, coarse_ * 2);
   if (seconds < kSoon) coarse_ = std::max(kFinest, coarse_ / 2);
   return isWhole && !cancel_;
 }
 
-bool Preview::renderStage(const Wish& wish, Film& film, int scale, int samples, bool isPrepared) {
+bool Preview::renderStage(const Wish& wish, Film& film, int scale, int samples) {
   Scene& scene = open_->scene();
   RenderOptions options = render_;
   options.samples = samples;
   options.cancel = scale > 1 ? &cancelCoarse_ : &cancel_;
-  options.isPrepared = isPrepared;
+  options.isPrepared = isPrepared_;
   options.mostInPass = kMostInPass;
   const double start = secondsNow();
   options.passed = [&] {
+    isPrepared_ = true;
     publish(wish, film, scale, secondsNow() - start);
     answerRequests(wish);
   };
@@ -260,12 +328,15 @@ bool Preview::renderStage(const Wish& wish, Film& film, int scale, int samples, 
       status_.phase = p.phase, status_.share = p.share, status_.remaining = p.remaining;
       status_.samples = p.samples, status_.wanted = p.wanted;
     }
-    answerRequests(wish);
-    if (cancel_ && p.elapsed > kLate) cancelCoarse_ = true;
+    isPrepared_ = isPrepared_ || std::string_view(p.phase) == "rendering";
+    if (isPrepared_) answerRequests(wish);
+    // Now and then a coarse picture is finished however late it is.
+    if (cancel_ && p.elapsed > kLate && secondsNow() - published_ < kStarving) cancelCoarse_ = true;
     wake_();
   };
   setPhase("rendering");
   const RenderResult result = render(scene, film, options);
+  isPrepared_ = isPrepared_ || result.counters.paths > 0;
   {
     const std::lock_guard lock(mutex_);
     if (result.seconds > 0)
@@ -278,19 +349,24 @@ bool Preview::renderStage(const Wish& wish, Film& film, int scale, int samples, 
 
 void Preview::publish(const Wish& wish, const Film& film, int scale, double seconds) {
   auto fresh = std::make_shared<Snapshot>();
-  const Film whole = makeFilm(open_->scene(), wish.width, wish.height, nullptr, {});
+  const FilmShape whole = shapeFor(wish);
   fresh->open = open_, fresh->camera = open_->scene().impl().camera;
   fresh->means = film.means(), fresh->crop = film.crop();
-  fresh->filmWidth = whole.width(), fresh->filmHeight = whole.height();
+  fresh->filmWidth = whole.width, fresh->filmHeight = whole.height;
+  const Crop& c = fresh->crop;
+  const auto w = float(film.width()), h = float(film.height());
+  fresh->part = {float(c.x0) / w, float(c.y0) / h, float(c.x1) / w, float(c.y1) / h};
+  published_ = secondsNow();
   fresh->scale = scale, fresh->samples = int(film.minSamples()), fresh->seconds = seconds;
   fresh->wish = wish, fresh->integrator = open_->scene().integratorName();
+  std::shared_ptr<const Snapshot> published = std::move(fresh);
   {
     const std::lock_guard lock(mutex_);
     if (!hasFirst_) status_.firstPicture = secondsNow() - wished_;
     hasFirst_ = true;
-    status_.samples = fresh->samples;
-    snapshot_ = std::move(fresh);
-  }
+    status_.samples = published->samples;
+    snapshot_.swap(published);
+  }  // the one before dies without the lock
   wake_();
 }
 
@@ -302,14 +378,12 @@ void Preview::answerRequests(const Wish& wish) {
     request = requests_.front();
     requests_.clear();
   }
-  if (!open_) return;
-  const Film film = makeFilm(open_->scene(), wish.width, wish.height, nullptr, {});
-  if (request.x < 0 || request.y < 0 || request.x >= film.width() || request.y >= film.height())
-    return;
+  const FilmShape film = shapeFor(wish);
+  if (request.x < 0 || request.y < 0 || request.x >= film.width || request.y >= film.height) return;
   auto fresh = std::make_shared<Inspection>();
   fresh->open = open_, fresh->camera = open_->scene().impl().camera;
   fresh->x = request.x, fresh->y = request.y, fresh->sample = request.sample;
-  fresh->filmWidth = film.width(), fresh->filmHeight = film.height();
+  fresh->filmWidth = film.width, fresh->filmHeight = film.height;
   RenderOptions options = render_;
   options.samples = wish.samples, options.isPrepared = true;
   fresh->radiance = inspectSample(open_->scene(), film, request.x, request.y, request.sample,

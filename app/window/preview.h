@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -59,6 +60,8 @@ struct Snapshot {
   Crop crop;
   int filmWidth = 0, filmHeight = 0;  ///< of the whole film in its final size
   int scale = 1;                      ///< a pixel of `means` is so many pixels wide
+  /// What part of the film `means` holds: left, top, right, bottom as shares of it.
+  std::array<float, 4> part = {0, 0, 1, 1};
   int samples = 0;
   double seconds = 0;  ///< since the wish
   Wish wish;
@@ -78,7 +81,7 @@ struct Status {
   int samples = 0, wanted = 0;
   double raysPerSecond = 0;
   double firstPicture = 0;  ///< seconds from the last wish to its first picture
-  bool isWrong = false;     ///< the scene could not be read: an older picture is shown
+  bool isWrong = false;     ///< what is wanted cannot be shown: it is an older picture
   std::vector<Complaint> complaints;
 };
 
@@ -95,7 +98,7 @@ struct Inspection {
 class Preview {
  public:
   /// `wake` is called, on another thread, when there is something new to see.
-  Preview(SceneInput input, RenderOptions render, std::function<void()> wake);
+  Preview(SceneInput input, RenderOptions render, const Wish& first, std::function<void()> wake);
   ~Preview();
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
@@ -104,6 +107,7 @@ class Preview {
   /// Traces that sample of that pixel of the film and keeps its path; soon, whatever else is under
   /// way.
   void inspect(int x, int y, std::uint32_t sample);
+  void forgetInspection();
 
   std::shared_ptr<const Snapshot> snapshot() const;
   std::shared_ptr<const Inspection> inspection() const;
@@ -111,6 +115,8 @@ class Preview {
   Status status() const;
   /// Every file that the scene came from or looked for, plugin libraries too.
   std::set<std::string> files() const;
+  /// When their reading began.
+  std::filesystem::file_time_type readAt() const;
 
  private:
   struct Request {
@@ -119,6 +125,7 @@ class Preview {
   };
 
   void work();
+  void doWish(const Wish& wish, bool isFresh);
   /// False where the picture cannot be made.
   bool makeReady(const Wish& wish);
   bool load(const Wish& wish);
@@ -126,8 +133,10 @@ class Preview {
   bool renew(const Wish& wish);
   void renderPicture(const Wish& wish);
   /// One size and one set of particles; false if something newer is wanted or it cannot be.
-  bool renderStage(const Wish& wish, Film& film, int scale, int samples, bool isPrepared);
+  bool renderStage(const Wish& wish, Film& film, int scale, int samples);
+  bool canGoOn(const Wish& wish) const;
   bool renderCoarse(const Wish& wish);
+  FilmShape shapeFor(const Wish& wish) const;
   Film filmFor(const Wish& wish, int scale) const;
   void publish(const Wish& wish, const Film& film, int scale, double seconds);
   void answerRequests(const Wish& wish);
@@ -148,6 +157,7 @@ class Preview {
   std::shared_ptr<const OpenScene> shown_;
   Status status_;
   std::set<std::string> files_;
+  std::filesystem::file_time_type readAt_;
 
   std::atomic<bool> cancel_{false};
   /// Of the coarse picture: it may be finished though something newer is wanted, or a camera that
@@ -157,6 +167,11 @@ class Preview {
   const std::shared_ptr<BuildCache> cache_ = std::make_shared<BuildCache>();
   std::shared_ptr<OpenScene> open_;
   Wish done_;  ///< what open_ was made for
+  bool isTextWrong_ = false;
+  std::vector<Complaint> textComplaints_;  ///< of the last reading
+  bool isPrepared_ = false;                ///< the integrator
+  bool isLastRound_ = false;               ///< with all the particles that it is to have
+  double published_ = 0;                   ///< when the last picture was
   double wished_ = 0;
   bool hasFirst_ = false;
   int coarse_ = 8;            ///< how coarse the first picture is: as much as it takes to come soon

@@ -6,7 +6,7 @@
 namespace vestige::app {
 namespace {
 
-constexpr int kSteps = 30;
+constexpr int kSteps = 16;
 constexpr Real kNear = Real(1e-4);  ///< of the film's side
 constexpr Real kFarthest = 3;       ///< film points beyond are of no use to anybody
 constexpr Real kLongestStep = Real(0.5);

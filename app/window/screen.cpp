@@ -17,16 +17,17 @@ constexpr const char* kHead = "#version 150\n";
 
 constexpr const char* kFragment = R"(
 uniform sampler2D picture, other;
-uniform vec2 corner, size;  // of the sheet: window pixels from the top left; picture pixels
+uniform vec2 corner, size;  // of the sheet: window pixels from the top left; film pixels
+uniform vec2 low, high;     // the part of the film that the picture holds, as shares
 uniform float zoom, windowHeight, exposure, gamma, wipe;
 uniform int channel, isData, versus;
 out vec4 result;
 
-// A pixel as it is where pixels are large, else a mean of some.
-vec3 lookUp(sampler2D from, vec2 at) {
-  if (zoom < 1.0) return texture(from, at / size).rgb;
+// At a share of a picture: a pixel as it is where pixels are large, else a mean of some.
+vec3 lookUp(sampler2D from, vec2 share) {
+  if (zoom < 1.0) return texture(from, share).rgb;
   ivec2 n = textureSize(from, 0);
-  return texelFetch(from, clamp(ivec2(floor(at * vec2(n) / size)), ivec2(0), n - 1), 0).rgb;
+  return texelFetch(from, clamp(ivec2(floor(share * vec2(n))), ivec2(0), n - 1), 0).rgb;
 }
 float luminance(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
@@ -56,13 +57,17 @@ void main() {
     result = vec4(vec3(0.09), 1.0);
     return;
   }
-  vec3 c = lookUp(picture, at);
+  vec2 share = at / size, inside = (share - low) / (high - low);
+  bool isIn = all(greaterThanEqual(inside, vec2(0.0))) && all(lessThan(inside, vec2(1.0)));
+  vec3 c = isIn ? lookUp(picture, inside) : vec3(0.0);
   if (versus == 2)
-    c = shown(abs(c - lookUp(other, at)));
+    c = isIn ? shown(abs(c - lookUp(other, share))) : vec3(0.0);
   else if (versus == 1 && abs(at.x - wipe * size.x) * zoom < 0.75)
     c = vec3(1.0, 0.8, 0.2);
+  else if (versus == 1 && at.x > wipe * size.x)
+    c = shown(lookUp(other, share));
   else
-    c = shown(versus == 1 && at.x > wipe * size.x ? lookUp(other, at) : c);
+    c = isIn ? shown(c) : vec3(0.05);
   result = vec4(clamp(c, 0.0, 1.0), 1.0);
 }
 )";
@@ -162,6 +167,8 @@ bool Screen::setDisplay(const Display& display, std::string& error) {
   std::string why;
   const std::string shader = displayShader(display, why);
   const bool isShader = !shader.empty() && build(shader, why);
+  float one[3] = {1, 1, 1};  // tells whether there is such a view
+  if (!isShader && !applyDisplay(display, one, 1, 3, error)) return false;
   Texture* const textures[2] = {&picture_, &other_};
   for (int i = 0; i < 2; ++i) {
     if (kept_[i].empty()) continue;
@@ -221,6 +228,8 @@ void Screen::draw(const Look& look, const Sheet& sheet, int windowWidth, int win
   gl::Uniform1i(place("other"), 1);
   gl::Uniform2f(place("corner"), sheet.left, sheet.top);
   gl::Uniform2f(place("size"), float(sheet.width), float(sheet.height));
+  gl::Uniform2f(place("low"), sheet.part[0], sheet.part[1]);
+  gl::Uniform2f(place("high"), sheet.part[2], sheet.part[3]);
   gl::Uniform1f(place("zoom"), sheet.zoom);
   gl::Uniform1f(place("windowHeight"), float(windowHeight));
   gl::Uniform1f(place("exposure"), isByProcessor_ ? 1 : float(std::exp2(look.display.exposure)));

@@ -2,6 +2,7 @@
 // Draws a picture of radiance into the window as the display shows it: the OpenColorIO view as a
 // shader, exposure, channels, false colours, a second picture beside it.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,9 @@ struct Look {
 /// Where the picture lies in the window, in its pixels from the top left.
 struct Sheet {
   float left = 0, top = 0, zoom = 1;  ///< window pixels a picture pixel
-  int width = 0, height = 0;          ///< of the picture, pixels
+  int width = 0, height = 0;          ///< of the film, pixels
+  /// Of the film that the picture holds: left, top, right, bottom as shares.
+  std::array<float, 4> part = {0, 0, 1, 1};
 };
 
 /// [the thread of the window, with its OpenGL context, while it lives]

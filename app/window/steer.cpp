@@ -6,6 +6,7 @@
 namespace vestige::app {
 namespace {
 
+constexpr Real kNearest = Real(1e-4);      ///< of a camera's distance from the origin
 constexpr Real kNearestPole = Real(0.01);  ///< radians between the view and the sky
 
 std::optional<Vec3> vectorOf(const Block& block, const Schema& schema, const std::string& name) {
@@ -99,7 +100,15 @@ Block withView(const Block& camera, const Schema& schema, const View& view) {
   return b;
 }
 
+Block placed(const Block& camera, const Schema& schema) {
+  const auto view = viewOf(camera, schema);
+  return view ? withView(camera, schema, *view) : camera;
+}
+
 Block withNumber(Block camera, const std::string& name, double value) {
+  // The camera takes one of them.
+  if (name == "focus_distance")
+    std::erase_if(camera.settings, [](const Setting& s) { return s.name == "focal_point"; });
   set(camera, name, numberValue(value));
   return camera;
 }
@@ -132,6 +141,9 @@ View pan(const View& v, Real right, Real up) {
 }
 
 View dolly(const View& v, Real factor) {
+  // No nearer than numbers of this size can tell two points apart.
+  const Real nearest = kNearest * (length(v.location) + length(v.lookAt));
+  if (distance(v) * factor < nearest) return v;
   return {v.lookAt + factor * (v.location - v.lookAt), v.lookAt, v.sky};
 }
 

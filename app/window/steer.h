@@ -19,6 +19,8 @@ struct View {
 std::optional<View> viewOf(const Block& camera, const Schema& schema);
 /// The block with that view, free of transforms; lengths such as a lens' diameter keep their size.
 Block withView(const Block& camera, const Schema& schema, const View& view);
+/// The same camera without transforms, if it can be steered.
+Block placed(const Block& camera, const Schema& schema);
 /// With one number in place of the block's: angle, aperture, focus_distance.
 Block withNumber(Block camera, const std::string& name, double value);
 /// The number of a setting, or its default; nullopt where there is neither.

@@ -13,25 +13,34 @@ FileWatch::State FileWatch::stateOf(const std::string& file) {
   return s;
 }
 
-void FileWatch::watch(const std::set<std::string>& files) {
+void FileWatch::watch(const std::set<std::string>& files, std::filesystem::file_time_type readAt) {
   std::map<std::string, State> now;
   for (const std::string& file : files) {
     const auto before = known_.find(file);
-    now[file] = before != known_.end() ? before->second : stateOf(file);
+    if (before != known_.end()) {
+      now[file] = before->second;
+      continue;
+    }
+    const State state = stateOf(file);
+    now[file] = state.exists && state.written > readAt ? State{} : state;
   }
   known_.swap(now);
 }
 
 bool FileWatch::hasChanged() {
   std::map<std::string, State> changed;
-  for (const auto& [file, before] : known_)
-    if (const State now = stateOf(file); now != before) changed[file] = now;
-  const bool isSettled = !changed.empty() && changed == unsettled_;
+  bool isSettled = false;
+  for (auto& [file, before] : known_) {
+    const State now = stateOf(file);
+    if (now == before) continue;
+    const auto seen = unsettled_.find(file);
+    if (seen != unsettled_.end() && seen->second == now)
+      before = now, isSettled = true;
+    else
+      changed[file] = now;
+  }
   unsettled_ = changed;
-  if (!isSettled) return false;
-  for (const auto& [file, now] : changed) known_[file] = now;
-  unsettled_.clear();
-  return true;
+  return isSettled;
 }
 
 }  // namespace vestige::app

@@ -12,8 +12,9 @@ namespace vestige::app {
 /// notifications do not (network folders, editors that write beside and rename).
 class FileWatch {
  public:
-  /// From now on these.
-  void watch(const std::set<std::string>& files);
+  /// From now on these. A file that is new here and was written after `readAt` counts as changed.
+  void watch(const std::set<std::string>& files,
+             std::filesystem::file_time_type readAt = std::filesystem::file_time_type::max());
   /// Whether one of them changed since the last true answer. A file that is still being written
   /// is waited for: it must look the same twice.
   bool hasChanged();

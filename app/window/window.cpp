@@ -58,7 +58,11 @@ Window::Window(const ViewRequest& request) : request_(request) {
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::StyleColorsDark();
   float scale = 1;
+  int wide = 1, pixels = 1;
   glfwGetWindowContentScale(window_, &scale, nullptr);
+  glfwGetWindowSize(window_, &wide, nullptr);
+  glfwGetFramebufferSize(window_, &pixels, nullptr);
+  scale *= float(std::max(1, wide)) / float(std::max(1, pixels));  // ImGui counts window units
   ImGui::GetStyle().ScaleAllSizes(scale);
   ImGui::GetIO().FontGlobalScale = scale;
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // after ours: it calls them on
@@ -75,9 +79,8 @@ Window::Window(const ViewRequest& request) : request_(request) {
     watch_.watch({request.input.file});
     wish_.build = request.build, wish_.samples = request.render.samples;
     wish_.width = request.width, wish_.height = request.height;
-    preview_ = std::make_unique<Preview>(request.input, request.render, glfwPostEmptyEvent);
+    preview_ = std::make_unique<Preview>(request.input, request.render, wish_, glfwPostEmptyEvent);
   }
-  if (preview_) preview_->want(wish_);
   if (!request.reference.empty()) openReference(request.reference);
 }
 
@@ -151,20 +154,28 @@ void Window::update() {
   if (now - lastWatch_ < kWatchEvery) return;
   lastWatch_ = now;
   if (preview_)
-    watch_.watch(preview_->files().empty() ? std::set{request_.input.file} : preview_->files());
+    if (const std::set<std::string> files = preview_->files(); !files.empty())
+      watch_.watch(files, preview_->readAt());
   if (!watch_.hasChanged()) return;
-  if (preview_)
-    restart(wish_.reload);
-  else
-    openPicture(request_.input.file);
+  readAgain();
+}
+
+void Window::readAgain() {
   isDirty_ = true;
+  if (!preview_) return openPicture(request_.input.file);
+  wish_.isPaused = false;  // who saves wants to see
+  hidesWarnings_ = false;
+  restart(wish_.reload);
 }
 
 /// A camera in the hand stays there when the text is saved, unless it is the camera that changed.
 void Window::takeScene() {
   const auto fresh = preview_->open();
   if (!fresh || fresh == open_) return;
-  const bool isOther = open_ && cameraText(open_->camera) != cameraText(fresh->camera);
+  const auto textOf = [](const OpenScene& o) {
+    return cameraText(placed(o.camera, o.cameraSchema));
+  };
+  const bool isOther = open_ && textOf(*open_) != textOf(*fresh);
   open_ = fresh;
   isDirty_ = true;
   if (!isOther || !wish_.camera) return;
@@ -194,6 +205,7 @@ void Window::takeSnapshot() {
   look_.isData = isAov;
   screen_->setPicture(shown_.rgb.data(), shown_.width, shown_.height);
   sheet_.width = fresh->filmWidth, sheet_.height = fresh->filmHeight;
+  sheet_.part = fresh->part;
 }
 
 /// The whole picture beside the panels.
@@ -223,18 +235,7 @@ void Window::draw() {
   const std::shared_ptr<const Snapshot> before = snapshot_;
   takeSnapshot();
   if (isFitted_) fit();
-  // A region is a part of the film: its pixels lie where the film has them.
-  Sheet sheet = sheet_;
-  if (snapshot_ && !request_.isPicture) {
-    const Crop& c = snapshot_->crop;
-    const float s = float(snapshot_->scale) * sheet_.zoom;
-    if (snapshot_->wish.region || c.x0 > 0 || c.y0 > 0) {
-      sheet.left += s * float(c.x0), sheet.top += s * float(c.y0);
-      sheet.width = (c.x1 - c.x0) * snapshot_->scale;
-      sheet.height = (c.y1 - c.y0) * snapshot_->scale;
-    }
-  }
-  screen_->draw(look_, sheet, w, h);
+  screen_->draw(look_, sheet_, w, h);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();

@@ -35,6 +35,7 @@ class Window {
   // window.cpp: the loop
   void installCallbacks();
   void update();
+  void readAgain();
   void takeSnapshot();
   void takeScene();
   void draw();
@@ -131,13 +132,14 @@ class Window {
   bool isTextureStale_ = true;
   std::string inspected_;  ///< what is drawn over the picture
 
-  bool isDirty_ = true, hidesPanels_ = false, showsHelp_ = false, wantsShot_ = false;
+  bool isDirty_ = true, hidesPanels_ = false, showsHelp_ = false, hidesWarnings_ = false,
+       wantsShot_ = false;
   double lastFrame_ = 0, lastWatch_ = 0, lastWalk_ = 0;
   double density_ = 1;         ///< pixels of the frame for one of the window: HiDPI
   double asked_ = -1;          ///< when the user last asked for another picture; -1: it is shown
   std::vector<double> waits_;  ///< seconds from there to its first frame
   std::string told_;
-  char file_[512] = "";
+  char file_[512] = "", reference_[512] = "";
 };
 
 }  // namespace vestige::app

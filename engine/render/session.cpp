@@ -203,8 +203,7 @@ int wantedSamples(const Integrator& integrator, const RenderOptions& options) {
 
 }  // namespace
 
-Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
-              std::vector<Aov> aovs) {
+FilmShape filmShape(const Scene& scene, int width, int height, const double crop[4]) {
   const FilmSettings& f = scene.film();
   // One side given: the other keeps the shape of the picture.
   int w = width > 0 ? width : f.width, h = height > 0 ? height : f.height;
@@ -216,7 +215,13 @@ Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
   window.x0 = std::clamp(window.x0, 0, w - 1), window.y0 = std::clamp(window.y0, 0, h - 1);
   window.x1 = std::clamp(window.x1, window.x0 + 1, w);
   window.y1 = std::clamp(window.y1, window.y0 + 1, h);
-  return Film(w, h, window, std::move(aovs));
+  return {w, h, window};
+}
+
+Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
+              std::vector<Aov> aovs) {
+  const FilmShape s = filmShape(scene, width, height, crop);
+  return Film(s.width, s.height, s.crop, std::move(aovs));
 }
 
 RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
@@ -304,14 +309,14 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
   return result;
 }
 
-Rgb inspectSample(Scene& scene, const Film& film, int x, int y, std::uint32_t index,
+Rgb inspectSample(Scene& scene, const FilmShape& film, int x, int y, std::uint32_t index,
                   const RenderOptions& options, PathRecord& record) {
   Counters counters;
   const auto goOn = [](double) { return true; };
   if (!options.isPrepared) scene.integrator().prepare({scene.view(), options.seed, 1, goOn});
   const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, options.seed);
   const auto start = cameraRay(scene.camera(), PixelFilterSampler(scene.film().filter), sampler, x,
-                               y, film.width(), film.height(), true);
+                               y, film.width, film.height, true);
   if (!start) return {};
   PathContext context{.scene = scene.view(),
                       .sampler = sampler,

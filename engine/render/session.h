@@ -56,8 +56,14 @@ struct RenderResult {
   Counters counters = {};
 };
 
-/// Film resolution of a scene after the command line's wishes (0: the scene's), and its crop
-/// window.
+/// Resolution of a scene's film after the command line's wishes (0: the scene's), and its crop
+/// window. Cheap: no storage.
+struct FilmShape {
+  int width, height;
+  Crop crop;
+};
+FilmShape filmShape(const Scene& scene, int width, int height, const double crop[4]);
+/// An empty film of that shape.
 Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
               std::vector<Aov> aovs);
 
@@ -67,7 +73,7 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options);
 
 /// Traces one sample of one pixel of a film of that size, as render() would, and tells its path to
 /// `record`. What it adds to the pixel.
-Rgb inspectSample(Scene& scene, const Film& film, int x, int y, std::uint32_t index,
+Rgb inspectSample(Scene& scene, const FilmShape& film, int x, int y, std::uint32_t index,
                   const RenderOptions& options, PathRecord& record);
 
 }  // namespace vestige

@@ -3,14 +3,15 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string_view>
+#include <system_error>
 
 #include "engine/scene/library_file.h"
 
@@ -63,16 +64,17 @@ void* openLibrary(const std::string& file, std::string& why) {
     if (void* library = dlopen(before->second.name.c_str(), RTLD_NOW | RTLD_LOCAL)) return library;
   std::string name = file;
   const bool isCopy = before != known.end() && !failed;
-  if (isCopy) {
-    name = (fs::temp_directory_path(failed) / "vestige-XXXXXX").string();
-    const int made = mkstemp(name.data());
-    if (made >= 0) close(made);
-    fs::copy_file(file, name, fs::copy_options::overwrite_existing, failed);
+  std::string folder;
+  if (isCopy) {  // of the same name, which crashes tell
+    folder = (fs::temp_directory_path(failed) / "vestige-XXXXXX").string();
+    if (!mkdtemp(folder.data())) failed = std::make_error_code(std::errc(errno));
+    name = folder + '/' + fs::path(file).filename().string();
+    if (!failed) fs::copy_file(file, name, failed);
   }
   known[file] = {written, name};
   void* library = failed && isCopy ? nullptr : dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) why = failed && isCopy ? failed.message() : dlerror();
-  if (isCopy) fs::remove(name, failed);
+  if (isCopy) fs::remove_all(folder, failed);
   return library;
 }
 

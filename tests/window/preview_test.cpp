@@ -19,12 +19,14 @@ constexpr double kPatience = 60;  // seconds; what is waited for takes a fractio
 
 /// A scene file, its preview, and how often that called.
 struct Bench {
-  explicit Bench(const std::string& text) : file(folder.write("a.scene", text)) {
+  explicit Bench(const std::string& text, const Wish& first = {})
+      : file(folder.write("a.scene", text)) {
     SceneInput input;
     input.file = file;
     RenderOptions options;
     options.threads = 2;
-    preview = std::make_unique<Preview>(input, options, [this] { ++calls; });
+    preview = std::make_unique<Preview>(input, options, first, [this] { ++calls; });
+    wish = first;
   }
   template <class Condition>
   bool comes(const Condition& condition) const {
@@ -235,4 +237,50 @@ TEST_CASE("hasty wishes neither crash nor starve", "[window][preview]") {
   b.rewrite(scene("<0.2, 0.3, 0.4>", 2));
   REQUIRE(b.comes([&] { return b.isFinished(2); }));
   CHECK(b.preview->snapshot()->means.pixels == rendered(b, 2).pixels);
+}
+
+TEST_CASE("the first wish is heard", "[window][preview]") {
+  Wish first;
+  first.width = 80, first.build.integrator = "normals";
+  const Bench b(scene("<0.8, 0.1, 0.1>"), first);
+  REQUIRE(b.comes([&] { return b.preview->status().phase == "finished"; }));
+  CHECK(b.preview->snapshot()->filmWidth == 80);
+  CHECK(b.preview->snapshot()->integrator == "normals");
+}
+
+TEST_CASE("a camera that is refused is told, and the next one is taken", "[window][preview]") {
+  Bench b(scene("<0.8, 0.1, 0.1>"));
+  REQUIRE(b.comes([&] { return b.isFinished(4); }));
+  Block refused = b.preview->open()->camera;
+  refused.settings.push_back({"angle", numberValue(200), {}});
+  b.wish.camera = refused, ++b.wish.view;
+  b.want();
+  REQUIRE(b.comes([&] { return b.preview->status().isWrong; }));
+  CHECK_THAT(b.preview->status().complaints[0].text, containsText("angle"));
+  b.wish.camera.reset(), ++b.wish.view;
+  b.want();
+  REQUIRE(b.comes([&] { return b.isFinished(4); }));
+  CHECK_FALSE(b.preview->status().isWrong);
+}
+
+TEST_CASE("more samples start again where footprints go by their number", "[window][preview]") {
+  const std::string local = scene("<0.8, 0.1, 0.1>", 4);
+  const std::size_t at = local.find("samples 4") + 9;
+  Bench b(local.substr(0, at) + " footprint local { }" + local.substr(at));
+  REQUIRE(b.comes([&] { return b.isFinished(4); }));
+  b.wish.samples = 16;
+  b.want();
+  REQUIRE(b.comes([&] { return b.isFinished(16); }));
+  CHECK(b.preview->snapshot()->means.pixels == rendered(b, 16).pixels);
+}
+
+TEST_CASE("a region is known by its shares of the film", "[window][preview]") {
+  Bench b(scene("<0.8, 0.1, 0.1>"));
+  b.wish.region = std::array<double, 4>{0, 0, 0.5, 0.25}, ++b.wish.picture;
+  b.want();
+  REQUIRE(b.comes([&] { return b.isFinished(4); }));
+  const auto s = b.preview->snapshot();
+  CHECK(s->part == std::array<float, 4>{0, 0, 0.5f, 0.25f});
+  CHECK(s->means.width == 80);
+  CHECK(s->filmWidth == 160);
 }

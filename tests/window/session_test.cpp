@@ -286,6 +286,9 @@ TEST_CASE("a session: look, turn, change the text, break it, mend it, inspect, s
   CHECK(difference(mended, inspected, 20, 20, 600, 600) > 1e-4);     // the path over the picture
   CHECK(difference(mended, inspected, 660, 420, 990, 660) > 0.005);  // its numbers
 
+  s.key("Escape");
+  CHECK(difference(mended, s.shot("10-escaped"), 660, 420, 990, 640) < 0.002);
+
   const Image picture = s.saved();
   CHECK(picture.width == 320);
   CHECK(s.close() == 0);

@@ -89,6 +89,10 @@ TEST_CASE("movements keep what they should", "[window][steer]") {
   CHECK(isSame(distance(dolly(v, Real(0.5))), d / 2));
   CHECK(isSame(dot(normalize(walk(v, 2).location - v.location), normalize(v.lookAt - v.location)),
                1));
+  View near = v;
+  for (int i = 0; i < 500; ++i) near = dolly(near, Real(0.9));
+  CHECK(distance(near) > 0);
+  CHECK(distance(dolly(near, 2)) > Real(1.5) * distance(near));
   // A full turn comes back; up and down ends short of the poles and can go back.
   View round = v;
   for (int i = 0; i < 8; ++i) round = orbit(round, kPi / 4, 0);

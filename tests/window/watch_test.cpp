@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/window/watch.h"
 
+#include <chrono>
 #include <fstream>
 
 #include "app/run.h"
@@ -26,6 +27,12 @@ TEST_CASE("files that change, come and go are noticed once", "[window][watch]") 
   std::filesystem::remove(a);
   watch.hasChanged();
   CHECK(watch.hasChanged());
+  // One that is saved while it was being read counts, though it was not known before.
+  const std::string late = folder.write("late", "x");
+  watch.watch({late}, std::filesystem::last_write_time(late) - std::chrono::seconds(1));
+  watch.hasChanged();
+  CHECK(watch.hasChanged());
+  watch.watch({a});
   // What is watched anew does not forget what was known of it.
   folder.write("a", "back");
   watch.watch({a});
