@@ -318,13 +318,18 @@ TEST_CASE("the old scene renders while the new one is built", "[cache]") {
 }
 
 TEST_CASE("nothing grows with the number of reloads", "[cache]") {
+  const bool isPaged = GENERATE(false, true);
   Files files;
   Reloads reloads;
+  setenv("VESTIGE_CACHE", files.folder.path().c_str(), 1);
+  if (isPaged) reloads.options.textureMemory = 0;
   SceneDesc s = sceneWith(files);
   std::unique_ptr<Scene> shown = reloads.build(s);
+  REQUIRE(shown);
+  pixelsOf(*shown);
   const std::size_t entries = reloads.cache().entries(), bytes = reloads.cache().textureBytes();
   CHECK(entries == kShapes + kPictures);
-  CHECK(bytes > 0);
+  CHECK((bytes > 0) != isPaged);
   const std::size_t open = openFiles();
   for (int k = 0; k < 200; ++k) {
     if (k % 10 == 0) files.writePicture(k), files.writeMesh(1 + k);
@@ -334,8 +339,11 @@ TEST_CASE("nothing grows with the number of reloads", "[cache]") {
     REQUIRE(shown);
     REQUIRE(reloads.cache().entries() == entries);
     REQUIRE(reloads.cache().textureBytes() == bytes);
+    if (k % 20 == 0) pixelsOf(*shown);
   }
+  pixelsOf(*shown);
   CHECK(openFiles() == open);
+  unsetenv("VESTIGE_CACHE");
 }
 
 TEST_CASE("what is held and what is paged is as on a fresh start", "[cache][paging]") {

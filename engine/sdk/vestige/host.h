@@ -44,7 +44,9 @@ class Host {
  public:
   virtual ~Host() = default;
   /// Absolute name of a file that stands beside the text of `span`, or "" with `error` saying where
-  /// it was looked for.
+  /// it was looked for. To be asked for every file before it is read, also one that another file
+  /// names: what was asked for is watched by a preview, which creates a shape again only when such
+  /// a file has changed.
   virtual std::string find(const std::string& file, Span span, std::string& error) = 0;
   /// The image, read once however often it is asked for; null with `error` saying why.
   virtual std::shared_ptr<const Texture> texture(const TextureRequest& request,
