@@ -48,9 +48,11 @@ Place::Place(const Affine& objectToWorld)
       condition(Real(largestRow(toWorld) * largestRow(toObject))),
       shift(Real(std::max(
           {std::abs(toWorld.m[0][3]), std::abs(toWorld.m[1][3]), std::abs(toWorld.m[2][3])}))),
-      similarity(keepsAngles(objectToWorld)) {}
+      similarity(keepsAngles(objectToWorld)),
+      identity(objectToWorld.isIdentity()) {}
 
 SurfacePoint Place::world(const SurfacePoint& o) const noexcept {
+  if (identity) return o;
   SurfacePoint w;
   w.position = toWorld.point(o.position);
   w.geometricNormal = normalize(normals * o.geometricNormal);

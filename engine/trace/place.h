@@ -16,11 +16,13 @@ struct Place {
   Real condition;   ///< norm times that of the inverse
   Real shift;       ///< largest component of the offset
   bool similarity;  ///< turns, mirrors and scales all axes alike: angles keep
+  bool identity;    ///< both spaces are one: nothing to carry
 
   /// A surface point with its normals and derivatives, object to world [MATH 1.4].
   SurfacePoint world(const SurfacePoint& object) const noexcept;
   /// The same t means the same point.
   Ray object(const Ray& world) const noexcept {
+    if (identity) return world;
     return {toObject.point(world.origin), toObject.vector(world.direction), world.tMin, world.tMax};
   }
   /// World area of a unit of area whose unit normal in object space is this.

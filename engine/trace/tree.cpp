@@ -114,6 +114,8 @@ struct Tree::Impl {
   std::shared_ptr<const MeshTree> meshTree(const Triangles& t) const;
   void addInstance(RTCScene object, const Item& item, int index);
   void addGroup(Group& group, unsigned mask);
+  /// The nearest of them, if any: ends the ray there.
+  bool meetUnbounded(Ray& ray, unsigned mask, Query& query) const noexcept;
 };
 
 embree::Geometry Tree::Impl::triangleGeometry(const Triangles& t) const {
@@ -161,6 +163,17 @@ void Tree::Impl::addGroup(Group& group, unsigned mask) {
   attach(g.get(), mask, -1);
 }
 
+bool Tree::Impl::meetUnbounded(Ray& ray, unsigned mask, Query& query) const noexcept {
+  bool found = false;
+  for (const int k : unbounded) {
+    const Item& item = (*items)[k];
+    if (!(maskOf(item) & mask)) continue;
+    const auto met = item.placement.shape->intersect(item.place.object(ray));
+    if (met) found = true, query.item = k, query.hit = *met, ray.tMax = met->t;
+  }
+  return found;
+}
+
 Tree::Tree() = default;
 Tree::~Tree() = default;
 
@@ -198,17 +211,16 @@ void Tree::build(const std::vector<Item>& items, const Tree* before) {
 
 bool Tree::closest(const Ray& ray, unsigned mask, TreeHit& hit) const noexcept {
   const Impl& t = *impl_;
-  Ray world = ray;
   Query query;
-  query.ray = &world;
+  query.ray = &ray;
+  Ray shortened;
   bool found = false;
-  for (const int k : t.unbounded) {
-    if (!(maskOf((*t.items)[k]) & mask)) continue;
-    const auto met = (*t.items)[k].placement.shape->intersect((*t.items)[k].place.object(world));
-    if (met) found = true, query.item = k, query.hit = *met, world.tMax = met->t;
+  if (!t.unbounded.empty()) {
+    shortened = ray, query.ray = &shortened;
+    found = t.meetUnbounded(shortened, mask, query);
   }
   RTCRayHit rayHit;
-  fillRay(rayHit.ray, world, mask);
+  fillRay(rayHit.ray, *query.ray, mask);
   rayHit.hit.geomID = rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embree::initialise(query.context);
   embree::intersect(t.scene.get(), rayHit, query.context);

@@ -38,6 +38,7 @@ Triangles::Triangles(const TriangleMesh& mesh, const Affine& toSpace)
     normals_.reserve(mesh.normals.size());
     for (const Vec3 n : mesh.normals) normals_.push_back(carry * n);
   }
+  hasUvs_ = mesh.uvs.size() == mesh.positions.size();
   triangles_.reserve(mesh.triangles.size());
   for (const auto& corners : mesh.triangles)
     if (isSound(corners)) triangles_.push_back(corners);
@@ -80,45 +81,44 @@ Real Triangles::area(std::uint32_t triangle) const noexcept {
 }
 
 Real Triangles::at(std::uint32_t triangle, Vec2 b, SurfacePoint& s) const noexcept {
-  const Edges e = edges(triangle);
   const auto& c = triangles_[triangle];
-  const Vec3 p[3] = {positions_[c[0]], positions_[c[1]], positions_[c[2]]};
+  const Vec3 p0 = positions_[c[0]], p1 = positions_[c[1]], p2 = positions_[c[2]];
   // In double and rounded once: so the point is off the plane by its own rounding only, however
   // large the triangle.
-  for (int k = 0; k < 3; ++k)
-    s.position[k] = Real(double(p[0][k]) + b.x * (double(p[1][k]) - p[0][k]) +
-                         b.y * (double(p[2][k]) - p[0][k]));
-  s.geometricNormal = e.normal;
-  shade(s, c, b, e);
-  return std::max(maxAbsComponent(e.ab), maxAbsComponent(e.ac));
+  const auto blend = [b](Real x0, Real x1, Real x2) {
+    return Real(double(x0) + b.x * (double(x1) - x0) + b.y * (double(x2) - x0));
+  };
+  s.position = {blend(p0.x, p1.x, p2.x), blend(p0.y, p1.y, p2.y), blend(p0.z, p1.z, p2.z)};
+  s.geometricNormal = s.normal = faces_[triangle];
+  s.uv = b;
+  s.dPdu = p1 - p0, s.dPdv = p2 - p0;
+  s.dNdu = s.dNdv = s.dPduu = s.dPduv = s.dPdvv = {};
+  const Real extent = std::max(maxAbsComponent(s.dPdu), maxAbsComponent(s.dPdv));
+  if (!normals_.empty()) bend(s, c);
+  if (hasUvs_) followUvs(s, c);
+  return extent;
 }
 
-void Triangles::shade(SurfacePoint& s, const std::array<std::uint32_t, 3>& c, Vec2 b,
-                      const Edges& e) const noexcept {
-  s.normal = s.geometricNormal;
-  Vec3 dN[2];  // by b [MATH 1.4]
-  if (!normals_.empty()) {
-    const Vec3 n0 = normals_[c[0]], d1 = normals_[c[1]] - n0, d2 = normals_[c[2]] - n0;
-    const Vec3 n = n0 + b.x * d1 + b.y * d2;
-    const Real l = length(n);
-    if (l > Real(1e-6)) {  // opposite normals blend to nothing: then flat
-      s.normal = n / l;
-      dN[0] = (d1 - dot(s.normal, d1) * s.normal) / l;
-      dN[1] = (d2 - dot(s.normal, d2) * s.normal) / l;
-    }
-  }
-  s.uv = b;
-  s.dPduu = s.dPduv = s.dPdvv = {};
-  s.dPdu = e.ab, s.dPdv = e.ac, s.dNdu = dN[0], s.dNdv = dN[1];
-  if (source_->uvs.size() != positions_.size()) return;
+void Triangles::bend(SurfacePoint& s, const std::array<std::uint32_t, 3>& c) const noexcept {
+  const Vec3 n0 = normals_[c[0]], d1 = normals_[c[1]] - n0, d2 = normals_[c[2]] - n0;
+  const Vec3 n = n0 + s.uv.x * d1 + s.uv.y * d2;
+  const Real l = length(n);
+  if (!(l > Real(1e-6))) return;  // opposite normals blend to nothing: then flat
+  s.normal = n / l;
+  s.dNdu = (d1 - dot(s.normal, d1) * s.normal) / l;  // [MATH 1.4]
+  s.dNdv = (d2 - dot(s.normal, d2) * s.normal) / l;
+}
+
+void Triangles::followUvs(SurfacePoint& s, const std::array<std::uint32_t, 3>& c) const noexcept {
   const Vec2 t0 = source_->uvs[c[0]], t1 = source_->uvs[c[1]] - t0, t2 = source_->uvs[c[2]] - t0;
-  s.uv = t0 + b.x * t1 + b.y * t2;
+  s.uv = t0 + s.uv.x * t1 + s.uv.y * t2;
   const Real det = cross(t1, t2);
   // Corners on one line of the uv plane: no direction of u, the edges serve as a frame.
   if (!(std::abs(det) > Real(1e-6) * std::sqrt(dot(t1, t1) * dot(t2, t2)))) return;
   const Vec2 bu = Vec2{t2.y, -t1.y} * (1 / det), bv = Vec2{-t2.x, t1.x} * (1 / det);
-  s.dPdu = bu.x * e.ab + bu.y * e.ac, s.dPdv = bv.x * e.ab + bv.y * e.ac;
-  s.dNdu = bu.x * dN[0] + bu.y * dN[1], s.dNdv = bv.x * dN[0] + bv.y * dN[1];
+  const Vec3 ab = s.dPdu, ac = s.dPdv, dNab = s.dNdu, dNac = s.dNdv;
+  s.dPdu = bu.x * ab + bu.y * ac, s.dPdv = bv.x * ab + bv.y * ac;
+  s.dNdu = bu.x * dNab + bu.y * dNac, s.dNdv = bv.x * dNab + bv.y * dNac;
 }
 
 Triangles::Meeting Triangles::meet(std::uint32_t triangle, const Ray& ray) const noexcept {

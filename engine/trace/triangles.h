@@ -38,8 +38,10 @@ class Triangles {
 
  private:
   bool isSound(const std::array<std::uint32_t, 3>& corners) const noexcept;
-  void shade(SurfacePoint& s, const std::array<std::uint32_t, 3>& corners, Vec2 b,
-             const Edges& e) const noexcept;
+  /// Of a flat point with barycentric uv: the shading normal, from the corners'; then uv and what
+  /// goes by them, from the corners' uv.
+  void bend(SurfacePoint& s, const std::array<std::uint32_t, 3>& corners) const noexcept;
+  void followUvs(SurfacePoint& s, const std::array<std::uint32_t, 3>& corners) const noexcept;
 
   const TriangleMesh* source_;
   Affine toSpace_;
@@ -48,6 +50,7 @@ class Triangles {
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Vec3> faces_;  ///< Edges::normal
   Real side_ = 1;            ///< -1 where toSpace mirrors
+  bool hasUvs_ = false;
   std::size_t dropped_ = 0;
 };
 

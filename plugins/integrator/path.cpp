@@ -32,6 +32,9 @@ struct Vertex {
   InputBuffer inputs;
 };
 
+/// The vertex that a path is at, and the one before.
+using Vertices = Vertex[2];
+
 /// A path under way.
 struct Path {
   Ray ray;
@@ -121,17 +124,17 @@ class PathIntegrator final : public Integrator {
               .index = context.sampler.index(),
               .rays = split_,
               .report = PathReport(context)};
-    if (!carriesFootprint(context, footprint_)) return trace(context, path);
+    Vertices vertices;
+    if (!carriesFootprint(context, footprint_)) return trace(context, path, vertices);
     PathFootprint<> footprint;
     footprint.begin(context, footprint_);
     path.footprint = &footprint, path.sceneSize = sizeOf(context.scene);
-    return trace(context, path);
+    return trace(context, path, vertices);
   }
 
  private:
-  Rgb trace(PathContext& c, Path& path) const noexcept {
+  Rgb trace(PathContext& c, Path& path, Vertices& vertices) const noexcept {
     Rgb radiance;
-    Vertex vertices[2];  // this one, and the one before
     for (; path.edge <= depth_; ++path.edge) {
       Vertex& v = vertices[path.edge % 2];
       if (!next(c, path, v, radiance)) break;
@@ -157,6 +160,7 @@ class PathIntegrator final : public Integrator {
   /// The mean of what comes along several rays from here.
   Rgb split(PathContext& c, const Path& path, const Vertex& v) const noexcept {
     Rgb sum;
+    Vertices vertices;
     for (int i = 0; i < path.rays; ++i) {
       Path ray = path;
       ray.index = path.index * std::uint32_t(path.rays) + std::uint32_t(i);
@@ -168,7 +172,7 @@ class PathIntegrator final : public Integrator {
       const bool isOnly = i == 0 && ray.rays > 1;
       if (isOnly) ray.index = path.index;
       ++ray.edge;
-      if (goesOn) sum += trace(c, ray);
+      if (goesOn) sum += trace(c, ray, vertices);
       if (isOnly) return sum;
     }
     return sum / Real(path.rays);

@@ -39,6 +39,13 @@ inline std::uint32_t reverseBits(std::uint32_t x) noexcept {
   x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
   return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
+/// Of two numbers in one word: as cheap as of one. The first comes back in the upper half.
+inline std::uint64_t reverseBits(std::uint32_t first, std::uint32_t second) noexcept {
+  std::uint64_t x = __builtin_bswap64((std::uint64_t(second) << 32) | first);
+  x = ((x & 0x0f0f0f0f0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0f0f0f0f0fu);
+  x = ((x & 0x3333333333333333u) << 2) | ((x >> 2) & 0x3333333333333333u);
+  return ((x & 0x5555555555555555u) << 1) | ((x >> 1) & 0x5555555555555555u);
+}
 /// Owen scrambling of a number whose bits are reversed: bit k is flipped by a hash of the bits
 /// below it [Bur20, constants by N. Vegdahl].
 inline std::uint32_t owenReversed(std::uint32_t x, std::uint32_t seed) noexcept {
@@ -73,28 +80,31 @@ class Sampler {
   Vec2 pair(std::uint32_t dim) const noexcept { return pair(dim, index_); }
 
   /// The same with an index of the caller's: child c of a split of n draws index() * n + c.
-  Real number(std::uint32_t dim, std::uint32_t index) const noexcept {
+  /// (Inline always: numbers of one index then share its reversal.)
+  [[gnu::always_inline]] Real number(std::uint32_t dim, std::uint32_t index) const noexcept {
     const std::uint32_t key = keyOf(dim);
     return detail::unitInterval(
         detail::reverseBits(detail::owenReversed(shuffled(index, key), key * kSeeds[0])));
   }
-  Vec2 pair(std::uint32_t dim, std::uint32_t index) const noexcept {
+  [[gnu::always_inline]] Vec2 pair(std::uint32_t dim, std::uint32_t index) const noexcept {
     using namespace detail;
     const std::uint32_t key = keyOf(dim), i = shuffled(index, key);
-    return {unitInterval(reverseBits(owenReversed(i, key * kSeeds[0]))),
-            unitInterval(reverseBits(owenReversed(sobol1Reversed(i), key * kSeeds[1])))};
+    const std::uint64_t both = reverseBits(owenReversed(i, key * kSeeds[0]),
+                                           owenReversed(sobol1Reversed(i), key * kSeeds[1]));
+    return {unitInterval(std::uint32_t(both >> 32)), unitInterval(std::uint32_t(both))};
   }
 
  private:
   /// Odd: from a key that is well mixed, seeds that share no pattern.
   static constexpr std::uint32_t kSeeds[2] = {0x9e3779b9u, 0x846ca68bu};
 
-  std::uint32_t keyOf(std::uint32_t dim) const noexcept {
+  [[gnu::always_inline]] std::uint32_t keyOf(std::uint32_t dim) const noexcept {
     return detail::mix(key_ ^ (dim * 0x9e3779b9u));
   }
   /// Decorrelates dimensions: an Owen scramble of the index, which keeps every aligned power of two
   /// of indices together.
-  static std::uint32_t shuffled(std::uint32_t index, std::uint32_t key) noexcept {
+  [[gnu::always_inline]] static std::uint32_t shuffled(std::uint32_t index,
+                                                       std::uint32_t key) noexcept {
     return detail::reverseBits(detail::owenReversed(detail::reverseBits(index), key));
   }
 
