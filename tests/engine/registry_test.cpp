@@ -2,8 +2,8 @@
 #include "engine/scene/registry.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 
 #include "support/catch.h"
