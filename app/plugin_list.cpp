@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
@@ -56,6 +57,27 @@ void printJson(const std::vector<Plugin>& plugins, const std::vector<std::string
   std::cout << all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 
+/// Sound libraries of the same kind and name as one that goes before them.
+std::vector<std::string> hidden(const Registry& registry, const std::vector<Plugin>& plugins,
+                                const std::vector<std::string>& folders) {
+  const auto isRefused = [&](const std::string& file) {
+    const std::vector<Refusal>& all = registry.refused();
+    return std::any_of(all.begin(), all.end(), [&](const Refusal& r) { return r.file == file; });
+  };
+  std::vector<std::string> sentences;
+  for (const std::string& folder : folders)
+    for (const std::string& file : librariesIn(folder)) {
+      const auto promised = promisedBy(file);
+      for (const Plugin& p : plugins)
+        if (promised && p.kind == promised->kind && p.name == promised->name && p.file != file &&
+            !isRefused(file))
+          sentences.push_back(
+              fmt::format("'{}' is not used: '{}' is also {} '{}' and goes before it", file, p.file,
+                          p.kind, p.name));
+    }
+  return sentences;
+}
+
 int runList(const ListRequest& r) {
   const Registry registry = loadRegistry(r.pluginPaths);
   const std::vector<Plugin> plugins = registry.plugins();
@@ -67,6 +89,8 @@ int runList(const ListRequest& r) {
     printTable(plugins, pluginFolders(r.pluginPaths));
   std::cout << std::flush;
   warnOfRefused(registry, {});
+  for (const std::string& sentence : hidden(registry, plugins, pluginFolders(r.pluginPaths)))
+    warn(sentence);
   return kFine;
 }
 

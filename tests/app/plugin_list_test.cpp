@@ -60,10 +60,21 @@ TEST_CASE("the nearer folder goes before", "[app][plugin]") {
   CHECK(list({}, "") == own + "/brdf_lambert.so");
 }
 
+TEST_CASE("of two with one name it is told which is used", "[app][plugin]") {
+  const Folder home;
+  const std::string named = withLambert(home, "named");
+  const Run r = runVestige({"plugin", "list", "--plugin-path", named});
+  CHECK(r.exit == 0);
+  CHECK_THAT(r.err, containsText("brdf_lambert.so' is not used: '" + named +
+                                 "/brdf_lambert.so' is "
+                                 "also brdf 'lambert' and goes before it"));
+}
+
 TEST_CASE("libraries that are refused are told with reasons, the others are listed",
           "[app][plugin]") {
   const Folder folder;
   folder.write("brdf_text.so", "not a library");
+  folder.write("brdf_lambert.so", "nor this");
   const std::uintmax_t size = fs::file_size(kLambert);
   for (const auto& [name, share] : {std::pair{"brdf_half.so", 0.5}, {"brdf_tenth.so", 0.1}}) {
     fs::copy_file(kLambert, folder.path() / name);
@@ -73,7 +84,9 @@ TEST_CASE("libraries that are refused are told with reasons, the others are list
   INFO(r.err);
   CHECK(r.exit == 0);
   CHECK_THAT(r.out, containsText("brdf_lambert.so"));
-  CHECK_THAT(r.err, containsText("brdf_text.so' was not loaded"));
+  CHECK_THAT(r.err, containsText("brdf_text.so' was not loaded") &&
+                        containsText("brdf_lambert.so' was not loaded"));
+  CHECK(r.err.find("is not used") == r.err.npos);
   for (const char* name : {"brdf_half.so", "brdf_tenth.so"})
     CHECK_THAT(r.err, containsText(folder / name + "' was not loaded: it is cut short: "));
 }
