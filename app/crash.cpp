@@ -75,6 +75,9 @@ void onCrash(int signal) {
 }  // namespace
 
 void useCrashStack() {
+  stack_t before = {};
+  sigaltstack(nullptr, &before);
+  if (!(before.ss_flags & SS_DISABLE)) return;  // a sanitizer's, which it takes away itself
   static thread_local std::array<char, 1 << 16> stack;
   stack_t other = {};
   other.ss_sp = stack.data();
