@@ -11,7 +11,7 @@ struct ViewRequest {
   SceneInput input;
   BuildOptions build;
   RenderOptions render;
-  int width = 0, height = 0;  ///< of the picture; 0: the scene's, no larger than the window
+  int width = 0, height = 0;  ///< of the picture; 0: the scene's
   int windowWidth = 1280, windowHeight = 800;
   Display display;
   std::string reference;   ///< a picture to compare with

@@ -130,7 +130,6 @@ class Window {
   float textureZoom_ = 6;  ///< side of the texture panel over the footprint's
   GLuint texture_ = 0;
   bool isTextureStale_ = true;
-  std::string inspected_;  ///< what is drawn over the picture
 
   bool isDirty_ = true, hidesPanels_ = false, showsHelp_ = false, hidesWarnings_ = false,
        wantsShot_ = false;
