@@ -2,6 +2,7 @@
 // Where samples are summed: integers, so that the picture is the same in whatever order they come.
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,12 @@ class Film {
     std::vector<float> pixels;
   };
   Means means() const;
+
+  /// All that it holds, row by row: a sum for each channel of each pixel, samples of each pixel.
+  std::span<const std::int64_t> sums() const noexcept { return sums_; }
+  std::span<const std::uint32_t> counts() const noexcept { return counts_; }
+  std::span<std::int64_t> sums() noexcept { return sums_; }
+  std::span<std::uint32_t> counts() noexcept { return counts_; }
 
  private:
   std::size_t index(int x, int y) const noexcept;

@@ -129,12 +129,6 @@ void renderTile(const Job& job, int tile, std::uint32_t first, int count, Counte
   });
 }
 
-void add(Counters& sum, const Counters& c) {
-  sum.rays += c.rays, sum.shadowRays += c.shadowRays, sum.paths += c.paths;
-  sum.nonFinite += c.nonFinite, sum.clamped += c.clamped;
-  sum.clampedIndirect += c.clampedIndirect;
-}
-
 /// One pass over some tiles by several threads, watched by the calling thread. False if `stop` said
 /// so before the end; tiles under way are finished.
 class Pass {
@@ -194,14 +188,20 @@ class Pass {
   Counters counters_;
 };
 
+}  // namespace
+
+void add(Counters& sum, const Counters& c) {
+  sum.rays += c.rays, sum.shadowRays += c.shadowRays, sum.paths += c.paths;
+  sum.nonFinite += c.nonFinite, sum.clamped += c.clamped;
+  sum.clampedIndirect += c.clampedIndirect;
+}
+
 int wantedSamples(const Integrator& integrator, const RenderOptions& options) {
   if (options.samples > 0) return options.samples;
   if (options.seconds > 0) return 0;  // until time is up
   if (options.noise > 0) return kMostSamples;
   return integrator.samples() > 0 ? integrator.samples() : kDefaultSamples;
 }
-
-}  // namespace
 
 FilmShape filmShape(const Scene& scene, int width, int height, const double crop[4]) {
   const FilmSettings& f = scene.film();
@@ -235,14 +235,16 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
   std::optional<Adaptive> adaptive;
   if (options.noise > 0) adaptive.emplace(film, options.noise);
 
-  double told = 0;  // when progress was last told: small pictures finish many passes a tick
+  double told = 0;    // when progress was last told: small pictures finish many passes a tick
+  double before = 0;  // share that the film came with
   const auto report = [&](double share, int samples, const char* phase) {
     const double elapsed = now() - start;
     if (!options.progress || elapsed - told < kLeastTick) return;
     told = elapsed;
     const double left = options.seconds > 0 ? options.seconds - elapsed : kInfinity;
-    const bool isKnown = (wanted > 0 || adaptive) && share > 0;
-    const double remaining = std::min(left, isKnown ? elapsed * (1 - share) / share : kInfinity);
+    const bool isKnown = (wanted > 0 || adaptive) && share > before;
+    const double remaining =
+        std::min(left, isKnown ? elapsed * (1 - share) / (share - before) : kInfinity);
     if (options.seconds > 0 && (adaptive || wanted == 0))
       share = std::max(share, std::min(1.0, elapsed / options.seconds));
     options.progress({share, elapsed, std::isfinite(remaining) ? std::max(0.0, remaining) : -1,
@@ -274,22 +276,40 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
       (crop.x1 - crop.x0 + kTile - 1) / kTile,
       (crop.y1 - crop.y0 + kTile - 1) / kTile,
       adaptive ? &*adaptive : nullptr};
-  double farthest = 0;  // what is still to come by the noise is a guess; the bar shall not go back
+  before = !adaptive && wanted > 0 ? std::min(1.0, film.meanSamples() / wanted) : 0;
+  double farthest = before;  // the bar shall not go back, though what the noise asks is a guess
   const auto shareOf = [&](double samples) {
-    if (!adaptive) return wanted > 0 ? samples / wanted : 0.0;
-    const double share = adaptive->share(samples, wanted > 0 ? wanted : kMostSamples);
+    if (!adaptive && wanted == 0) return 0.0;
+    const double share =
+        adaptive ? adaptive->share(samples, wanted > 0 ? wanted : kMostSamples) : samples / wanted;
     return farthest = std::max(farthest, share);
+  };
+  const auto sumUp = [&] {
+    result.samples = int(film.minSamples()), result.mostSamples = int(film.maxSamples());
+    result.meanSamples = film.meanSamples();
+    if (adaptive) result.quiet = adaptive->quiet();
+    result.seconds = now() - start;
+  };
+  double resumed = now();
+  const auto isPauseDue = [&] {
+    return options.paused && options.pauseEvery > 0 && now() - resumed >= options.pauseEvery;
   };
   std::vector<int> tiles = openTiles(job);
   // Passes of 1, 1, 2, 4, ... samples: a picture soon, then little overhead.
   for (int done = int(film.minSamples()), pass = 1; result.end == RenderEnd::finished;) {
     if (wanted > 0 && done >= wanted) break;
+    if (isPauseDue()) {
+      sumUp();
+      options.paused(result);
+      resumed = now();
+    }
     const int count = wanted > 0 ? std::min(pass, wanted - done) : pass;
     const bool whole = Pass(job, tiles, std::uint32_t(done), count, options.cancel)
                            .run(threads, result.counters, [&](double share) {
                              report(shareOf(done + share * count), done, "rendering");
-                             return cancelled() || timeUp();
+                             return cancelled() || timeUp() || isPauseDue();
                            });
+    if (!whole && !cancelled() && !timeUp()) continue;  // the same pass, after a pause
     if (!whole) result.end = cancelled() ? RenderEnd::cancelled : RenderEnd::timeUp;
     done += count;
     if (whole && adaptive && (std::has_single_bit(unsigned(done)) || done == wanted)) {
@@ -302,10 +322,7 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
     if (whole && options.passed) options.passed();
     pass = std::min(options.mostInPass, std::max(pass, done));
   }
-  result.samples = int(film.minSamples()), result.mostSamples = int(film.maxSamples());
-  result.meanSamples = film.meanSamples();
-  if (adaptive) result.quiet = adaptive->quiet();
-  result.seconds = now() - start;
+  sumUp();
   return result;
 }
 

@@ -22,6 +22,8 @@ struct Progress {
 /// Samples a pixel at most where only the noise decides.
 inline constexpr int kMostSamples = 65536;
 
+struct RenderResult;
+
 /// Of samples, seconds and noise the one reached first ends the render.
 struct RenderOptions {
   int samples = 0;     ///< a pixel; 0: what the scene says, or 16; see also noise
@@ -39,6 +41,10 @@ struct RenderOptions {
   std::function<void(const std::string&)> warn = nullptr;
   /// After each pass over the film, which stands still meanwhile, on the calling thread.
   std::function<void()> passed = nullptr;
+  /// Whenever so many seconds have passed, in the middle of a pass if need be; 0: never. The film
+  /// stands still meanwhile. With what this call has done so far, on the calling thread.
+  double pauseEvery = 0;
+  std::function<void(const RenderResult&)> paused = nullptr;
   int mostInPass = 16;      ///< samples a pixel: how coarse progress may be
   bool isPrepared = false;  ///< the integrator was, by an earlier call for the same scene and seed
 };
@@ -55,6 +61,7 @@ struct RenderResult {
   int threads = 0;
   Counters counters = {};
 };
+void add(Counters& sum, const Counters& counters);
 
 /// Resolution of a scene's film after the command line's wishes (0: the scene's), and its crop
 /// window. Cheap: no storage.
@@ -66,6 +73,9 @@ FilmShape filmShape(const Scene& scene, int width, int height, const double crop
 /// An empty film of that shape.
 Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
               std::vector<Aov> aovs);
+
+/// Samples a pixel that end the render; 0: time does.
+int wantedSamples(const Integrator& integrator, const RenderOptions& options);
 
 /// Adds samples to the film until done, out of time or cancelled. Whatever was finished stays.
 /// Throws std::runtime_error with a sentence for the user where the integrator cannot prepare.
