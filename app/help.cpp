@@ -14,6 +14,8 @@ loops and macros. Every camera, light, shape and material is a plugin.
   vestige render hello.scene -o a.exr -o a.png     two files of one render
   vestige render hello.scene --time 2m --width 1920
   vestige render hello.scene --noise 0.02          until its noise is 2 % of its brightness
+  vestige render hello.scene --checkpoint hello.checkpoint
+                                                   goes on after an interruption
   vestige view hello.scene                         a window: the picture follows each save
   vestige check hello.scene                        what is wrong with it, without rendering
   vestige describe brdf phong                      what a material may say

@@ -2,12 +2,16 @@
 // vestige render: from a scene's text to picture files.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
+#include <set>
 
+#include "app/checkpoint.h"
 #include "app/command.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
@@ -23,14 +27,40 @@ void checkRequest(const RenderRequest& r, const Registry& registry) {
   checkBuildOptions(r.build, registry);
   checkOutputs(r.output, !r.aovs.empty());
   if (!r.statsFile.empty() && r.statsFile != "-") checkWritable(r.statsFile);
+  if (r.checkpoint.empty()) return;
+  if (r.render.noise > 0)
+    throw Failure(kCommandLineWrong,
+                  "--checkpoint does not go with --noise: which pixels are quiet is not kept");
+  for (const std::string& file : r.output.files)
+    if (file == r.checkpoint)
+      throw Failure(kCommandLineWrong,
+                    fmt::format("'{}' cannot be both the picture and the checkpoint", file));
+  checkWritable(r.checkpoint);
 }
 
-RenderResult renderFilm(const RenderRequest& r, Scene& scene, Film& film) {
+/// What can only be known once the scene is.
+void checkIntegrator(const RenderRequest& r, const Scene& scene) {
+  const auto isLoaded = [](const auto& setting) { return setting.first == "load_solution"; };
+  if (r.render.seconds <= 0 || scene.integratorName() != "particle" ||
+      std::any_of(r.build.settings.begin(), r.build.settings.end(), isLoaded))
+    return;
+  throw Failure(kCommandLineWrong,
+                "--checkpoint does not go with --time here: integrator particle sends as many "
+                "particles as fit into the time, in each run others. Keep their light with "
+                "--save-solution first, and continue with --load-solution");
+}
+
+RenderResult renderFilm(const RenderRequest& r, Scene& scene, Film& film,
+                        std::optional<CheckpointFile>& checkpoint) {
   ProgressReport report(progressStyle(r.progress));
   RenderOptions options = r.render;
   options.cancel = &catchInterrupts();
   options.progress = [&](const Progress& p) { report.show(p); };
   options.warn = [&](const std::string& sentence) { report.clear(), warn(sentence); };
+  if (checkpoint) options.pauseEvery = r.checkpointEvery;
+  options.paused = [&](const RenderResult& soFar) {
+    checkpoint->save(film, scene, soFar, options.warn);
+  };
   try {
     return render(scene, film, options);
   } catch (const std::runtime_error& e) {  // the integrator cannot prepare
@@ -71,7 +101,7 @@ std::string samplesText(const Statistics& s) {
 }
 
 void reportWritten(const RenderRequest& r, const Statistics& s,
-                   const std::vector<std::string>& files) {
+                   const std::vector<std::string>& files, bool isKept) {
   const ProgressStyle style = progressStyle(r.progress);
   if (style == ProgressStyle::json) std::cout << doneLine(s, files) << std::endl;
   if (style != ProgressStyle::bar && style != ProgressStyle::plain) return;
@@ -80,6 +110,8 @@ void reportWritten(const RenderRequest& r, const Statistics& s,
   for (const std::string& file : files)
     say(fmt::format("wrote {} ({} x {}, {}, {}{})", file, s.width, s.height, samplesText(s),
                     durationText(s.render.seconds), why));
+  if (!r.checkpoint.empty() && s.render.end != RenderEnd::finished && isKept)
+    say(fmt::format("kept in {}: the same command goes on", r.checkpoint));
 }
 
 /// False if the file could not be written.
@@ -109,13 +141,44 @@ Statistics statisticsOf(const RenderRequest& r, const LoadedScene& loaded, const
   return s;
 }
 
+/// "room.checkpoint: going on from 16 samples a pixel".
+void sayHowFar(const RenderRequest& r, const Film& film) {
+  const ProgressStyle style = progressStyle(r.progress);
+  if (film.maxSamples() == 0 || (style != ProgressStyle::bar && style != ProgressStyle::plain))
+    return;
+  say(fmt::format("{}: going on from {} a pixel", r.checkpoint,
+                  count(film.minSamples(), "sample")));
+}
+
+/// What there is of the picture, to its files; the program's exit code.
+int writeResults(const RenderRequest& r, const Statistics& stats, const Film& film,
+                 std::uint64_t sceneHash, bool isKept) {
+  const RenderResult& result = stats.render;
+  warnAboutCounters(result.counters);
+  warnAboutTextures(stats.textures);
+  if (result.mostSamples == 0) {
+    complain("stopped before the first sample, so there is no picture to write");
+    return result.end == RenderEnd::cancelled ? kInterrupted : kFine;
+  }
+  if (result.samples == 0) warn("not every pixel got a sample: those without are black");
+  bool failed = false;
+  const PictureFacts facts{sceneHash, r.render.seed, result.samples, result.seconds};
+  const auto files = writeOutputs(r.output, pictureOf(film, facts), failed);
+  reportWritten(r, stats, files, isKept);
+  if (!writeStatistics(r, stats) || failed || !isKept) return kMachineFailed;
+  return result.end == RenderEnd::cancelled ? kInterrupted : kFine;
+}
+
 int runRender(const RenderRequest& r) {
   const double start = secondsNow();
   const Registry registry = loadRegistry(r.input.pluginPaths);
   const double importSeconds = secondsNow() - start;
   checkRequest(r, registry);
 
-  const LoadedScene loaded = loadScene(r.input, registry, Stage::built, r.build);
+  std::set<std::string> files;
+  BuildOptions build = r.build;
+  build.files = &files;
+  const LoadedScene loaded = loadScene(r.input, registry, Stage::built, build);
   printDiagnostics(loaded.text);
   if (!loaded.scene) return kSceneWrong;
   if (!isAccepted(loaded.text, r.input.werror)) {
@@ -124,21 +187,21 @@ int runRender(const RenderRequest& r) {
   }
 
   Film film = makeFilm(*loaded.scene, r.width, r.height, r.cropGiven ? r.crop : nullptr, r.aovs);
-  const RenderResult result = renderFilm(r, *loaded.scene, film);
-  warnAboutCounters(result.counters);
-  const Statistics stats = statisticsOf(r, loaded, film, result, importSeconds);
-  warnAboutTextures(stats.textures);
-  if (result.counters.paths == 0) {
-    complain("stopped before the first sample, so there is no picture to write");
-    return result.end == RenderEnd::cancelled ? kInterrupted : kFine;
+  std::optional<CheckpointFile> checkpoint;
+  if (!r.checkpoint.empty()) {
+    checkIntegrator(r, *loaded.scene);
+    checkpoint.emplace(
+        r.checkpoint, checkpointLabel(loaded.text.scene, *loaded.scene, registry, build, r.render));
+    checkpoint->load(film, wantedSamples(loaded.scene->integrator(), r.render));
+    sayHowFar(r, film);
   }
-  if (result.samples == 0) warn("not every pixel got a sample: those without are black");
-  bool failed = false;
-  const PictureFacts facts{loaded.scene->hash(), r.render.seed, result.samples, result.seconds};
-  const auto files = writeOutputs(r.output, pictureOf(film, facts), failed);
-  reportWritten(r, stats, files);
-  if (!writeStatistics(r, stats) || failed) return kMachineFailed;
-  return result.end == RenderEnd::cancelled ? kInterrupted : kFine;
+  RenderResult result = renderFilm(r, *loaded.scene, film, checkpoint);
+  const bool isNew = result.counters.paths > 0;
+  const bool isKept = !checkpoint || !isNew || checkpoint->save(film, *loaded.scene, result, warn);
+  if (checkpoint) result = checkpoint->whole(result);
+  Statistics stats = statisticsOf(r, loaded, film, result, importSeconds);
+  if (checkpoint) stats.earlierSeconds = checkpoint->earlier().seconds;
+  return writeResults(r, stats, film, loaded.scene->hash(), isKept);
 }
 
 }  // namespace

@@ -145,6 +145,33 @@ void addPicture(CLI::App& command, RenderRequest& r) {
   command.add_flag("--half", r.output.write.halfFloat, "16 bits a channel in EXR")->group(group);
 }
 
+void addCheckpoint(CLI::App& command, RenderRequest& r) {
+  const char* group = "Interruptions";
+  command
+      .add_option(
+          "--checkpoint", r.checkpoint,
+          "keep the render in this file every five minutes, at the end and after Ctrl-C. If "
+          "the file is there, go on from it: the same command continues, with a larger "
+          "--spp it adds samples, and the picture is that of a render in one go")
+      ->take_last()
+      ->type_name("FILE")
+      ->group(group);
+  const auto every = [&](const std::string& text) {
+    const auto seconds = parseDuration(text);
+    if (!seconds)
+      throw Failure(
+          kCommandLineWrong,
+          fmt::format("--checkpoint-every wants a time as 30s, 2m or 1h30m, found '{}'", text));
+    r.checkpointEvery = *seconds;
+  };
+  command
+      .add_option_function<std::string>("--checkpoint-every", every,
+                                        "how often it is written: 30s, 2m, 1h (5m)")
+      ->take_last()
+      ->type_name("TIME")
+      ->group(group);
+}
+
 void addReports(CLI::App& command, RenderRequest& r) {
   const char* group = "Reports";
   command.add_option("--progress", r.progress, "auto, bar, plain, json (on stdout) or none (auto)")
@@ -166,6 +193,7 @@ void addRenderOptions(CLI::App& command, RenderRequest& request) {
   addSceneOptions(command, request.input);
   addPicture(command, request);
   addQuality(command, request);
+  addCheckpoint(command, request);
   addReports(command, request);
   addLimits(command, request.input.limits);
 }

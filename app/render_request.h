@@ -22,6 +22,8 @@ struct RenderRequest {
   std::string statsFile;  ///< "-": stdout
   std::string progress = "auto";
   bool resultLine = false;
+  std::string checkpoint;        ///< "": none is kept
+  double checkpointEvery = 300;  ///< seconds
 };
 
 /// Adds all options; `request` must outlive the parsing. Numbers and words out of place are

@@ -63,6 +63,7 @@ std::string statisticsJson(const Statistics& s) {
                {"texture_cache_used_bytes", s.textures.pagedUsed},
                {"texture_read_errors", s.textures.readErrors},
                {"peak_memory_bytes", peakMemoryBytes()}};
+  if (s.earlierSeconds >= 0) json["earlier_render_s"] = s.earlierSeconds;
   if (s.noise > 0) json["noise"] = s.noise;
   addNoise(json, s, "samples_mean", "samples_most");
   return json.dump(2);

@@ -19,6 +19,8 @@ struct Statistics {
   int width = 0, height = 0;  ///< pixels that were rendered
   std::uint32_t seed = 0;
   double noise = 0;  ///< that was wanted; 0: none
+  /// Of `render.seconds`, what earlier runs took; negative: no checkpoint is kept.
+  double earlierSeconds = -1;
 };
 
 /// "finished", "time is up", "interrupted".

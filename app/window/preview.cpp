@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "app/checkpoint.h"
 #include "app/crash.h"
 
 #include "engine/scene/scene_impl.h"
@@ -254,11 +255,7 @@ Film Preview::filmFor(const Wish& wish, int scale) const {
 bool Preview::canGoOn(const Wish& wish) const {
   if (!film_ || !wish.isSamePicture(filmWish_)) return false;
   if (wish.samples == filmWish_.samples) return true;
-  std::string bound = wish.build.footprint;
-  const Block* integrator = lastIntegrator(open_->loaded.text.scene);
-  const Value* block = integrator ? integrator->find("footprint") : nullptr;
-  if (bound.empty() && block && block->block) bound = block->block->plugin;
-  return bound.empty() || bound == "safe" || bound == "none";
+  return !goesByDeclaredSamples(open_->loaded.text.scene, wish.build);
 }
 
 void Preview::renderPicture(const Wish& wish) {

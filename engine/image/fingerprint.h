@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names for contents, private to engine/image.
+// Names for contents.
 #pragma once
 #include <cstddef>
 #include <string>

@@ -107,11 +107,20 @@ TEST_CASE("a piece that cannot be read is told after the render", "[app]") {
   const std::string scene = texturedScene(folder);
   render(folder, scene, {"--texture-memory", "0"});
   const auto paged = std::filesystem::directory_iterator(folder / "cache")->path();
-  {
+  const auto spoil = [&] {
     std::fstream out(paged, std::ios::in | std::ios::out | std::ios::binary);
     out.seekp(1000);
     out << std::string(3000, 'x');
-  }
+  };
+  spoil();
+  const std::string kept = folder / "a.checkpoint";  // not of such a picture
+  const Run unkept =
+      runVestige({scene, "-o", folder / "a.exr", "--texture-memory", "0", "--checkpoint", kept},
+                 {.variables = {{"VESTIGE_CACHE", folder / "cache"}}});
+  CHECK(unkept.exit == 3);
+  CHECK_THAT(unkept.err, containsText("checkpoint '" + kept + "' stays as it was"));
+  CHECK_FALSE(std::filesystem::exists(kept));
+  spoil();
   const Rendered spoilt = render(folder, scene, {"--texture-memory", "0"});
   CHECK(spoilt.stats["texture_read_errors"] > 0);
   CHECK_THAT(spoilt.run.err, containsText("could not be read while rendering") &&
