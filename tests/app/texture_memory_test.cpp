@@ -113,6 +113,12 @@ TEST_CASE("a piece that cannot be read is told after the render", "[app]") {
     out << std::string(3000, 'x');
   };
   spoil();
+  const Rendered spoilt = render(folder, scene, {"--texture-memory", "0"});
+  CHECK(spoilt.stats["texture_read_errors"] > 0);
+  CHECK_THAT(spoilt.run.err, containsText("could not be read while rendering") &&
+                                 containsText(paged.filename().string()));
+  CHECK(render(folder, scene, {"--texture-memory", "0"}).stats["texture_read_errors"] == 0);
+  spoil();
   const std::string kept = folder / "a.checkpoint";  // not of such a picture
   const Run unkept =
       runVestige({scene, "-o", folder / "a.exr", "--texture-memory", "0", "--checkpoint", kept},
@@ -120,10 +126,4 @@ TEST_CASE("a piece that cannot be read is told after the render", "[app]") {
   CHECK(unkept.exit == 3);
   CHECK_THAT(unkept.err, containsText("checkpoint '" + kept + "' stays as it was"));
   CHECK_FALSE(std::filesystem::exists(kept));
-  spoil();
-  const Rendered spoilt = render(folder, scene, {"--texture-memory", "0"});
-  CHECK(spoilt.stats["texture_read_errors"] > 0);
-  CHECK_THAT(spoilt.run.err, containsText("could not be read while rendering") &&
-                                 containsText(paged.filename().string()));
-  CHECK(render(folder, scene, {"--texture-memory", "0"}).stats["texture_read_errors"] == 0);
 }
