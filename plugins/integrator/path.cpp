@@ -35,6 +35,12 @@ struct Vertex {
 /// The vertex that a path is at, and the one before.
 using Vertices = Vertex[2];
 
+/// A continuation as it was drawn, and the numbers it was drawn with.
+struct Way {
+  ScatterNumbers numbers;
+  std::optional<Scatter> scatter;  ///< empty: absorbed
+};
+
 /// A path under way.
 struct Path {
   Ray ray;
@@ -43,6 +49,7 @@ struct Path {
   int edge = 1;             ///< under way, from the camera
   int rough = 0, specular = 0;  ///< scatterings so far
   int rays = 1;                 ///< into which it is still to split
+  bool hasForked = false;       ///< went both ways inside ground glass
   Rgb throughput{1, 1, 1};
   Rgb flux{1, 1, 1};                     ///< throughput without eta^2: what roulette decides by
   PathFootprint<>* footprint = nullptr;  ///< null: carries none
@@ -145,7 +152,10 @@ class PathIntegrator final : public Integrator {
       }
       if (path.rough < roughDepth_) radiance += direct(c, path, v);
       if (path.rays > 1) return radiance + split(c, path, v);
-      if (!scatter(c, path, v)) break;
+      const Way way = draw(c, path, v);
+      if (!path.hasForked)
+        if (const auto other = otherWay(v, way)) return radiance + fork(c, path, v, way, *other);
+      if (!scatter(c, path, v, way)) break;
     }
     return radiance;
   }
@@ -167,7 +177,7 @@ class PathIntegrator final : public Integrator {
       std::optional<PathFootprint<>> footprint;
       if (path.footprint) ray.footprint = &footprint.emplace(*path.footprint);
       if (i > 0) ray.report = PathReport();  // the first is told
-      const bool goesOn = scatter(c, ray, v);
+      const bool goesOn = scatter(c, ray, v, draw(c, ray, v));
       // A mirror leaves no choice: one ray stands for all, and splits where it comes to.
       const bool isOnly = i == 0 && ray.rays > 1;
       if (isOnly) ray.index = path.index;
@@ -176,6 +186,48 @@ class PathIntegrator final : public Integrator {
       if (isOnly) return sum;
     }
     return sum / Real(path.rays);
+  }
+
+  /// The other way on, where ground glass is met from inside: one of thirty rays is reflected
+  /// there, and may bring all of a lamp. Empty: there are not just two ways. Whether there are
+  /// depends on what moved `way`, not on which of the two it is.
+  static std::optional<Way> otherWay(const Vertex& v, const Way& way) noexcept {
+    if (!v.x.point.inside || !way.scatter || way.scatter->local.specular) return std::nullopt;
+    const ScatterSample& drawn = way.scatter->local;
+    if (!(drawn.lobeChance < 1)) return std::nullopt;
+    constexpr Real kFirst = 0, kLast = Real(0x1.fffffep-1);
+    for (const Real lobe : {kFirst, kLast}) {
+      const ScatterNumbers numbers{lobe, way.numbers.u};
+      const Way other{numbers, drawScatter(v.x, numbers)};
+      if (!other.scatter) return std::nullopt;
+      const ScatterSample& found = other.scatter->local;
+      if (found.lobe == drawn.lobe) continue;
+      const bool areAll = std::abs(drawn.lobeChance + found.lobeChance - 1) < Real(1e-4);
+      return areAll ? std::optional(other) : std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  /// What comes along both ways: neither is left to chance.
+  Rgb fork(PathContext& c, const Path& path, const Vertex& v, const Way& drawn,
+           const Way& other) const noexcept {
+    Rgb sum;
+    Vertices vertices;
+    for (const Way* way : {&drawn, &other}) {
+      Path branch = path;
+      branch.hasForked = true;
+      std::optional<PathFootprint<>> footprint;
+      if (path.footprint) branch.footprint = &footprint.emplace(*path.footprint);
+      if (way == &other) branch.report = PathReport();
+      Way certain = *way;
+      Scatter& s = *certain.scatter;
+      const Real chance = std::exchange(s.local.lobeChance, 1);
+      s.weight = chance * s.weight, s.local.weight = chance * s.local.weight;
+      const bool goesOn = scatter(c, branch, v, certain);
+      ++branch.edge;
+      if (goesOn) sum += trace(c, branch, vertices);
+    }
+    return sum;
   }
 
   /// Follows the ray to the surface where it scatters; adds what shines on the way. False: it left
@@ -218,12 +270,16 @@ class PathIntegrator final : public Integrator {
     return clamp_ / maxComponent(light) * light;
   }
 
-  /// Draws the next ray, one of the split's unless there is no choice. False where the path ends.
-  bool scatter(PathContext& c, Path& path, const Vertex& v) const noexcept {
+  static Way draw(PathContext& c, const Path& path, const Vertex& v) noexcept {
     const std::uint32_t dim = dimension::vertex(path.edge - 1);
     const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe, path.index),
                                  c.sampler.pair(dim + dimension::kDirection, path.index)};
-    const std::optional<Scatter> drawn = drawScatter(v.x, numbers);
+    return {numbers, drawScatter(v.x, numbers)};
+  }
+
+  /// Takes that way, one of the split's unless there is no choice. False where the path ends.
+  bool scatter(PathContext& c, Path& path, const Vertex& v, const Way& way) const noexcept {
+    const std::optional<Scatter>& drawn = way.scatter;
     const bool isOnly = drawn && drawn->local.specular && drawn->local.lobeChance == 1;
     const int siblings = isOnly ? 1 : std::exchange(path.rays, 1);
     if (path.edge == 1 && c.aovs && drawn) c.aovs->albedo += drawn->local.weight / Real(siblings);
@@ -238,13 +294,15 @@ class PathIntegrator final : public Integrator {
     path.drawn.from = v.s.position;
     path.drawn.density = drawn->local.specular ? kInfinity : Real(siblings) * drawn->local.pdf;
     path.ray = spawnRay(v.s, drawn->toNext);
-    const bool goesOn = !isBlack(path.throughput) &&
-                        (path.edge < kRouletteFrom ||
-                         survives(path, c.sampler.number(dim + dimension::kRoulette, path.index)));
+    const bool goesOn =
+        !isBlack(path.throughput) &&
+        (path.edge < kRouletteFrom ||
+         survives(path, c.sampler.number(dimension::vertex(path.edge - 1) + dimension::kRoulette,
+                                         path.index)));
     if (path.edge + 1 == depth_ && !lastEdgeCarries(c, *drawn)) path.footprint = nullptr;
     if (path.footprint && (goesOn || path.report.isWaiting())) {
       path.scatteredAt = &v, path.scattered = *drawn;
-      path.numbers = numbers, path.siblings = siblings;
+      path.numbers = way.numbers, path.siblings = siblings;
     }
     if (path.report.isWaiting()) path.catchUp();
     path.report.left(path.footprint);
