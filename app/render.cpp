@@ -27,10 +27,15 @@ void checkRequest(const RenderRequest& r, const Registry& registry) {
   checkBuildOptions(r.build, registry);
   checkOutputs(r.output, !r.aovs.empty());
   if (!r.statsFile.empty() && r.statsFile != "-") checkWritable(r.statsFile);
-  if (r.checkpoint.empty()) return;
-  if (r.render.noise > 0)
+  if (r.render.adaptive && r.render.noise > 0)
     throw Failure(kCommandLineWrong,
-                  "--checkpoint does not go with --noise: which pixels are quiet is not kept");
+                  "--adaptive does not go with --noise, which gives pixels what they need anyway");
+  if (r.checkpoint.empty()) return;
+  if (r.render.adaptive || r.render.noise > 0)
+    throw Failure(
+        kCommandLineWrong,
+        fmt::format("--checkpoint does not go with {}: which pixels are quiet is not kept",
+                    r.render.adaptive ? "--adaptive" : "--noise"));
   for (const std::string& file : r.output.files)
     if (file == r.checkpoint)
       throw Failure(kCommandLineWrong,
@@ -95,9 +100,11 @@ void warnAboutTextures(const TextureUse& t) {
 /// "64 samples a pixel", "16 to 512 samples a pixel, 80 on average, 97 % of the pixels quiet".
 std::string samplesText(const Statistics& s) {
   const RenderResult& r = s.render;
-  if (s.noise <= 0) return count(r.samples, "sample") + " a pixel";
-  return fmt::format("{} to {} a pixel, {:.0f} on average, {:.0f} % of the pixels quiet", r.samples,
-                     count(r.mostSamples, "sample"), r.meanSamples, std::floor(100 * r.quiet));
+  if (!s.isAdaptive) return count(r.samples, "sample") + " a pixel";
+  const std::string text = fmt::format("{} to {} a pixel, {:.0f} on average", r.samples,
+                                       count(r.mostSamples, "sample"), r.meanSamples);
+  if (s.noise <= 0) return text;
+  return text + fmt::format(", {:.0f} % of the pixels quiet", std::floor(100 * r.quiet));
 }
 
 void reportWritten(const RenderRequest& r, const Statistics& s,
@@ -136,6 +143,7 @@ Statistics statisticsOf(const RenderRequest& r, const LoadedScene& loaded, const
   s.importSeconds = importSeconds;
   s.loadSeconds = loaded.loadSeconds, s.buildSeconds = loaded.buildSeconds;
   s.render = result, s.seed = r.render.seed, s.noise = r.render.noise;
+  s.isAdaptive = r.render.adaptive || s.noise > 0;
   s.textures = loaded.scene->textureUse(), s.triangles = loaded.scene->triangles();
   s.width = crop.x1 - crop.x0, s.height = crop.y1 - crop.y0;
   return s;

@@ -64,6 +64,12 @@ void addQuality(CLI::App& command, RenderRequest& r) {
       "the number takes four times as long. Pixels then take as many samples as they need, at most "
       "65536 whatever the scene says; with --spp at most that many, with --time as many as fit")
       ->group(group);
+  command
+      .add_flag(
+          "--adaptive", r.render.adaptive,
+          "samples lie where they take away most noise: --spp, or what the scene says, is their "
+          "mean over the picture")
+      ->group(group);
   addInteger(
       command, "--seed", 0, 0xffffffff, [&](auto n) { r.render.seed = std::uint32_t(n); },
       "another noise, the same picture (0)")

@@ -17,11 +17,11 @@ std::uint64_t peakMemoryBytes() {
   return std::uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
-/// After --noise: what it came to.
+/// After --noise and --adaptive: what it came to.
 void addNoise(Json& json, const Statistics& s, const char* mean, const char* most) {
-  if (s.noise <= 0) return;
+  if (!s.isAdaptive) return;
   json[mean] = s.render.meanSamples, json[most] = s.render.mostSamples;
-  json["quiet_pixels"] = std::llround(s.render.quiet * s.width * s.height);
+  if (s.noise > 0) json["quiet_pixels"] = std::llround(s.render.quiet * s.width * s.height);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct Statistics {
   std::size_t triangles = 0;
   int width = 0, height = 0;  ///< pixels that were rendered
   std::uint32_t seed = 0;
-  double noise = 0;  ///< that was wanted; 0: none
+  double noise = 0;         ///< that was wanted; 0: none
+  bool isAdaptive = false;  ///< not the same number of samples everywhere
   /// Of `render.seconds`, what earlier runs took; negative: no checkpoint is kept.
   double earlierSeconds = -1;
 };
@@ -28,8 +29,8 @@ const char* endText(RenderEnd end);
 
 /// The object of --stats.
 std::string statisticsJson(const Statistics& s);
-/// `RESULT {"import_s": .., "load_s": .., "render_s": .., "spp_actual": ..}`; after --noise also
-/// "spp_mean", "spp_most" and "quiet_pixels".
+/// `RESULT {"import_s": .., "load_s": .., "render_s": .., "spp_actual": ..}`; after --noise and
+/// --adaptive also "spp_mean" and "spp_most", after --noise "quiet_pixels".
 std::string resultLine(const Statistics& s);
 /// The last line of --progress json.
 std::string doneLine(const Statistics& s, const std::vector<std::string>& files);

@@ -3,18 +3,28 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 namespace vestige {
+namespace {
 
-Adaptive::Adaptive(const Film& film, double noise)
+/// Of an interval, until the budget is met to a few samples.
+constexpr int kHalvings = 40;
+
+}  // namespace
+
+Adaptive::Adaptive(const Film& film, Goal goal)
     : crop_(film.crop()),
-      target_(noise * noise),
+      target_(goal.noise * goal.noise),
       blocksX_((crop_.x1 - crop_.x0 + kBlock - 1) / kBlock),
       blocksY_((crop_.y1 - crop_.y0 + kBlock - 1) / kBlock),
       blocks_(std::size_t(blocksX_) * std::size_t(blocksY_)),
       pixels_(std::int64_t(crop_.x1 - crop_.x0) * (crop_.y1 - crop_.y0)) {
+  budget_ = goal.samples * double(pixels_);
+  // A quarter of the samples is spent on finding out where the others belong.
+  least_ = budget_ > 0 ? std::clamp(int(goal.samples / 4), 2, kLeastSamples) : kLeastSamples;
   luminance_.assign(std::size_t(pixels_), 0);
   for (int y = crop_.y0; y < crop_.y1; ++y)
     for (int x = crop_.x0; x < crop_.x1; ++x) ++blocks_[block(x, y)].pixels;
@@ -26,21 +36,20 @@ std::size_t Adaptive::block(int x, int y) const noexcept {
 
 void Adaptive::judge(const Film& film, int samples) {
   const double scale = double(samples_) / (samples - samples_);
-  const bool canDecide = samples_ > 0 && samples >= kLeastSamples;
-  measure(film, scale);
+  const bool canDecide = samples_ > 0 && samples >= least_;
   taken_ += double(pixels_ - pixelsDone_) * (samples - samples_);
   samples_ = samples;
+  measure(film, scale);
   if (!canDecide) return;
-  for (int by = 0; by < blocksY_; ++by)
-    for (int bx = 0; bx < blocksX_; ++bx)
-      blocks_[std::size_t(by * blocksX_ + bx)].excess = excess(bx, by);
-  for (Block& b : blocks_) {
-    if (b.done || b.excess > 1) continue;
-    b.done = true;
-    pixelsDone_ += b.pixels;
-    // It will not change any more: neighbours shall not wait for it.
-    b.error = std::min(b.error, b.pixels * target_);
-  }
+  if (budget_ > 0)
+    closePaid();
+  else
+    closeQuiet();
+}
+
+void Adaptive::close(Block& b) noexcept {
+  b.done = true;
+  pixelsDone_ += b.pixels;
 }
 
 /// Errors of the blocks under way, from means then and now.
@@ -58,27 +67,83 @@ void Adaptive::measure(const Film& film, double scale) {
     for (int x = crop_.x0; x < crop_.x1; ++x, ++pixel) {
       Block& b = blocks_[block(x, y)];
       const double change = (now[pixel] - luminance_[pixel]) / std::max(now[pixel], least);
-      if (!b.done) b.error += change * change * scale;
+      if (!b.done) b.error += change * change * scale, b.samples = samples_;
     }
   luminance_ = std::move(now);
 }
 
+template <class Visit>
+void Adaptive::forNeighbours(std::size_t block, const Visit& visit) const {
+  const int bx = int(block) % blocksX_, by = int(block) / blocksX_;
+  for (int y = std::max(by - 1, 0); y <= std::min(by + 1, blocksY_ - 1); ++y)
+    for (int x = std::max(bx - 1, 0); x <= std::min(bx + 1, blocksX_ - 1); ++x)
+      visit(blocks_[std::size_t(y * blocksX_ + x)]);
+}
+
+void Adaptive::closeQuiet() {
+  for (std::size_t i = 0; i < blocks_.size(); ++i) blocks_[i].excess = excess(i);
+  for (Block& b : blocks_) {
+    if (b.done || b.excess > 1) continue;
+    close(b);
+    // It will not change any more: neighbours shall not wait for it.
+    b.error = std::min(b.error, b.pixels * target_);
+  }
+}
+
 /// The rule: the mean over the block and its neighbours is below the target, and none of them is
 /// far above it. As a multiple of the squared error allowed, hence of the samples taken.
-double Adaptive::excess(int bx, int by) const noexcept {
+double Adaptive::excess(std::size_t block) const noexcept {
   double sum = 0, worst = 0;
   int pixels = 0;
-  for (int y = std::max(by - 1, 0); y <= std::min(by + 1, blocksY_ - 1); ++y)
-    for (int x = std::max(bx - 1, 0); x <= std::min(bx + 1, blocksX_ - 1); ++x) {
-      const Block& b = blocks_[std::size_t(y * blocksX_ + x)];
-      sum += b.error, pixels += b.pixels;
-      worst = std::max(worst, b.error / b.pixels);
-    }
+  forNeighbours(block, [&](const Block& b) {
+    sum += b.error, pixels += b.pixels;
+    worst = std::max(worst, b.error / b.pixels);
+  });
   return std::max(sum / pixels, worst / (kFar * kFar)) / target_;
 }
 
+/// The sum of s^2 / n is least for samples n ~ s: the most samples for each s are looked for that
+/// the budget can pay. Blocks that would not double are done.
+void Adaptive::closePaid() {
+  std::vector<double> deviations(blocks_.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    if (!blocks_[i].done) largest = std::max(largest, deviations[i] = deviation(i));
+  const auto doublings = [&](std::size_t i, double rate) {
+    return std::max(0.0, std::round(std::log2(rate * deviations[i] / samples_)));
+  };
+  const auto isTooDear = [&](double rate) {
+    double cost = taken_;
+    for (std::size_t i = 0; i < blocks_.size(); ++i)
+      if (!blocks_[i].done && deviations[i] > 0)
+        cost += blocks_[i].pixels * samples_ * (std::exp2(doublings(i, rate)) - 1);
+    return cost > budget_;
+  };
+  double paid = 0;
+  if (largest > 0) {
+    double dear = samples_ / largest;
+    while (!isTooDear(dear)) paid = dear, dear *= 2;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = (paid + dear) / 2;
+      (isTooDear(middle) ? dear : paid) = middle;
+    }
+  }
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    if (!blocks_[i].done && !(doublings(i, paid) > 0)) close(blocks_[i]);
+}
+
+/// Of one sample of one pixel over luminance, from the block and its neighbours.
+double Adaptive::deviation(std::size_t block) const noexcept {
+  double sum = 0;
+  int pixels = 0;
+  forNeighbours(block, [&](const Block& b) { sum += b.error * b.samples, pixels += b.pixels; });
+  return std::sqrt(sum / pixels);
+}
+
 double Adaptive::share(double samples, int most) const noexcept {
-  if (samples_ < kLeastSamples) return 0;
+  if (budget_ > 0)
+    return std::min(1.0, (taken_ + double(pixels_ - pixelsDone_) * (samples - samples_)) / budget_);
+  if (samples_ < least_) return 0;
   double whole = taken_;
   for (const Block& b : blocks_) {
     if (b.done) continue;

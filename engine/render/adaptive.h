@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the picture is quiet enough: how far it moved while its samples doubled is its error.
+// Where samples are needed: how far a pixel moved while its samples doubled is its error.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -17,8 +17,14 @@ namespace vestige {
 /// docs/adaptive.md has measurements and limits.
 class Adaptive {
  public:
-  /// `noise`: wanted standard error over luminance, > 0. Remembers one number a pixel.
-  Adaptive(const Film& film, double noise);
+  /// Either may be 0.
+  struct Goal {
+    double noise = 0;    ///< standard error over luminance, everywhere
+    double samples = 0;  ///< a pixel, on average, shared out so that the mean of (standard error /
+                         ///< luminance)^2 over the picture gets least
+  };
+  /// Remembers one number a pixel.
+  Adaptive(const Film& film, Goal goal);
 
   /// Whether the pixel needs more samples. [any thread; not during judge()]
   bool wants(int x, int y) const noexcept { return !blocks_[block(x, y)].done; }
@@ -28,14 +34,14 @@ class Adaptive {
   void judge(const Film& film, int samples);
 
   bool isDone() const noexcept { return pixelsDone_ == pixels_; }
-  /// Share of the pixels that are done, [0,1].
+  /// Share of the pixels that are done, [0,1]: they have the noise wanted, or their samples.
   double quiet() const noexcept { return double(pixelsDone_) / double(pixels_); }
   /// Share of all work that is behind when open pixels hold `samples`, if errors fall with the
   /// square root of it and no pixel takes more than `most`: [0,1], 0 before the first decision.
   double share(double samples, int most) const noexcept;
 
   static constexpr int kBlock = 8;          ///< pixels, width and height
-  static constexpr int kLeastSamples = 16;  ///< a pixel, before the first decision
+  static constexpr int kLeastSamples = 16;  ///< a pixel, before the first decision about noise
   /// Luminance that errors are relative to, at least, as a share of the picture's mean.
   static constexpr double kFloor = 0.05;
   /// A block waits for neighbours whose own error is above so many times the noise wanted.
@@ -43,17 +49,27 @@ class Adaptive {
 
  private:
   struct Block {
-    double error = 0;   ///< sum over pixels of (standard error / luminance)^2
+    double error = 0;   ///< sum over pixels of (standard error / luminance)^2 ...
+    int samples = 0;    ///< ... when they held so many
     double excess = 0;  ///< times the samples taken, to be done; <= 1: done
     int pixels = 0;
     bool done = false;
   };
   std::size_t block(int x, int y) const noexcept;
+  /// Calls `visit(neighbour)` for a block and the up to eight around it.
+  template <class Visit>
+  void forNeighbours(std::size_t block, const Visit& visit) const;
   void measure(const Film& film, double scale);
-  double excess(int bx, int by) const noexcept;
+  void closeQuiet();
+  double excess(std::size_t block) const noexcept;
+  void closePaid();
+  double deviation(std::size_t block) const noexcept;
+  void close(Block& b) noexcept;
 
   Crop crop_;
   double target_;  ///< noise^2
+  double budget_;  ///< samples of the whole picture; 0: by noise
+  int least_;      ///< samples a pixel, before the first decision
   int blocksX_, blocksY_;
   std::vector<Block> blocks_;
   std::vector<double> luminance_;  ///< means when last judged

@@ -18,6 +18,7 @@ namespace {
 
 constexpr int kTile = 16;  ///< pixels; small enough that a cancel is answered at once
 constexpr int kDefaultSamples = 16;
+constexpr int kLeastShared = 8;  ///< samples a pixel that tell where more of them belong
 constexpr auto kTick = std::chrono::milliseconds(100);
 constexpr double kLeastTick = 0.05;  ///< seconds between two tellings of progress
 
@@ -203,6 +204,19 @@ int wantedSamples(const Integrator& integrator, const RenderOptions& options) {
   return integrator.samples() > 0 ? integrator.samples() : kDefaultSamples;
 }
 
+namespace {
+
+/// What an adaptive render is to reach; nullopt: all pixels get the same.
+std::optional<Adaptive::Goal> goalOf(const Integrator& integrator, RenderOptions options) {
+  if (options.noise > 0) return Adaptive::Goal{.noise = options.noise};
+  options.seconds = 0;
+  const int mean = wantedSamples(integrator, options);
+  if (!options.adaptive || mean < kLeastShared) return std::nullopt;
+  return Adaptive::Goal{.samples = double(mean)};
+}
+
+}  // namespace
+
 FilmShape filmShape(const Scene& scene, int width, int height, const double crop[4]) {
   const FilmSettings& f = scene.film();
   // One side given: the other keeps the shape of the picture.
@@ -228,12 +242,14 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
   const double start = now();
   const int threads =
       options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
-  const int wanted = wantedSamples(scene.integrator(), options);
+  const auto goal = goalOf(scene.integrator(), options);
+  const bool isShared = goal && goal->samples > 0;
+  const int wanted = isShared ? kMostSamples : wantedSamples(scene.integrator(), options);
   const auto cancelled = [&] { return options.cancel && options.cancel->load(); };
   const auto timeUp = [&] { return options.seconds > 0 && now() - start >= options.seconds; };
   RenderResult result{.end = RenderEnd::finished, .threads = threads};
   std::optional<Adaptive> adaptive;
-  if (options.noise > 0) adaptive.emplace(film, options.noise);
+  if (goal) adaptive.emplace(film, *goal);
 
   double told = 0;    // when progress was last told: small pictures finish many passes a tick
   double before = 0;  // share that the film came with
@@ -248,8 +264,8 @@ RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {
     if (options.seconds > 0 && (adaptive || wanted == 0))
       share = std::max(share, std::min(1.0, elapsed / options.seconds));
     options.progress({share, elapsed, std::isfinite(remaining) ? std::max(0.0, remaining) : -1,
-                      samples, adaptive ? options.samples : wanted, phase,
-                      adaptive ? adaptive->quiet() : -1});
+                      samples, adaptive ? (isShared ? 0 : options.samples) : wanted, phase,
+                      options.noise > 0 ? adaptive->quiet() : -1});
   };
 
   const auto preparing = [&](double share) {

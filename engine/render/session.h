@@ -14,7 +14,7 @@ struct Progress {
   double elapsed;     ///< seconds
   double remaining;   ///< seconds, estimate; negative: not known yet
   int samples;        ///< a pixel, finished
-  int wanted;         ///< a pixel; 0: until time is up or the noise is low enough
+  int wanted;         ///< a pixel; 0: of each pixel as many as it needs
   const char* phase;  ///< "preparing", "rendering"
   double quiet;       ///< share of the pixels at the noise wanted, [0,1]; negative: none is wanted
 };
@@ -32,6 +32,9 @@ struct RenderOptions {
   /// same number of samples. Needs an empty film. Without samples and seconds the most samples are
   /// kMostSamples, whatever the scene says; paths do not know how many will follow.
   double noise = 0;
+  /// The samples are a mean over the picture, and lie where they take away most noise. Needs an
+  /// empty film, and noise 0.
+  bool adaptive = false;
   std::uint32_t seed = 0;
   int threads = 0;                            ///< 0: as many as the machine has
   const std::atomic<bool>* cancel = nullptr;  ///< set by a signal handler or a window
