@@ -257,6 +257,7 @@ TEST_CASE("hasty wishes neither crash nor starve", "[window][preview]") {
         break;
       case 6:
         b.preview->inspect(int(random() % 200), int(random() % 200), random() % 9);
+        b.preview->hover(int(random() % 200), int(random() % 200));
         break;
       default:
         ++b.wish.view;

@@ -420,6 +420,29 @@ TEST_CASE("pictures from files are shown, and followed", "[window]") {
   CHECK(s.close() == 0);
 }
 
+TEST_CASE("a picture wider than a texture may be is shown reduced, its numbers are its own",
+          "[window]") {
+  if (!canRun()) return;
+  const Folder folder;
+  Image image;  // Mesa's textures have 16384 pixels a side at most
+  image.width = 16600, image.height = 500, image.channels = {"R", "G", "B"};
+  image.pixels.assign(std::size_t(image.width) * image.height * 3, 0.05f);
+  for (std::size_t y = 0; y < 500; ++y)
+    std::fill_n(&image.pixels[(y * 16600 + 8300) * 3], 8300 * 3, 0.5f);
+  std::string error;
+  REQUIRE(writeImage(folder / "p.exr", image, {}, error));
+  Session s("", {}, folder / "p.exr");
+  const Place p = placeOf(image.width, image.height, kPanel, kBar);
+  const Image shot = s.shot("13-wide");
+  CHECK(at(shot, p, 5000, 250)[1] == Approx(63 / 255.0).margin(0.01));  // sRGB of 0.05
+  CHECK(at(shot, p, 12000, 250)[1] == Approx(188 / 255.0).margin(0.01));
+  s.forget();
+  s.key("p");  // through the view, at its full size
+  s.comes("wrote p-view.png");
+  CHECK(readImage(s.folder() / "p-view.png", error).width == image.width);
+  CHECK(s.close() == 0);
+}
+
 TEST_CASE("five hundred random inputs", "[window][slow]") {
   if (!canRun()) return;
   Session s(scene("<0.8, 0.1, 0.1>"));
