@@ -19,9 +19,7 @@ namespace fs = std::filesystem;
 
 /// The one that counts.
 const Block* integratorOf(const SceneDesc& text, const BuildOptions& build) {
-  const Block* last = nullptr;
-  for (const Block& b : text.blocks)
-    if (b.kind == "integrator") last = &b;
+  const Block* last = text.last("integrator");
   return last && (build.integrator.empty() || build.integrator == last->plugin) ? last : nullptr;
 }
 

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/terminal.h"
+
 namespace vestige::app {
 namespace {
 
@@ -87,6 +89,14 @@ std::string footprintText(const PathVertex& v) {
   return t;
 }
 
+/// What of a radiosity solution was seen at vertex k, counted from 0.
+std::string seenText(const RecordedPath& path, std::size_t k) {
+  std::string t;
+  for (const RecordedPath::Seen& s : path.seen)
+    if (s.vertex == k) t += fmt::format("    element     {}\n", elementText(s.element));
+  return t;
+}
+
 std::string vertexText(std::size_t k, const PathVertex& v, const std::vector<std::string>& names,
                        const LoadedScene& loaded) {
   if (isGone(v))
@@ -145,7 +155,20 @@ Json vertexJson(const PathVertex& v, const std::vector<std::string>& names,
   return j;
 }
 
+Json json(const SeenElement& e) {
+  return {{"level", e.level},
+          {"id", e.id},
+          {"area", e.area},
+          {"flux", {e.flux.r, e.flux.g, e.flux.b}},
+          {"particles", e.hits}};
+}
+
 }  // namespace
+
+std::string elementText(const SeenElement& e) {
+  return fmt::format("flux {} W on an area of {}; {}", text(e.flux), text(e.area),
+                     count(static_cast<long long>(e.hits), "particle"));
+}
 
 std::vector<std::vector<std::string>> numberNames(const std::vector<PathVertex>& vertices) {
   static const char* const camera[] = {"film x", "film y", "lens u", "lens v"};
@@ -173,7 +196,8 @@ std::string pathText(const RecordedPath& path, const LoadedScene& loaded) {
   const auto names = numberNames(path.vertices);
   std::string t;
   for (std::size_t k = 0; k < path.vertices.size(); ++k)
-    t += fmt::format("\n{}", vertexText(k + 1, path.vertices[k], names[k], loaded));
+    t += fmt::format("\n{}{}", vertexText(k + 1, path.vertices[k], names[k], loaded),
+                     seenText(path, k));
   return t;
 }
 
@@ -182,6 +206,8 @@ std::string pathJson(const RecordedPath& path, const LoadedScene& loaded, Rgb ra
   Json vertices = Json::array();
   for (std::size_t k = 0; k < path.vertices.size(); ++k)
     vertices.push_back(vertexJson(path.vertices[k], names[k], loaded));
+  for (const RecordedPath::Seen& s : path.seen)
+    if (s.vertex < vertices.size()) vertices[s.vertex]["element"] = json(s.element);
   const Json all = {{"radiance", {radiance.r, radiance.g, radiance.b}}, {"vertices", vertices}};
   return all.dump(2);
 }

@@ -11,9 +11,18 @@ namespace vestige::app {
 /// Keeps what an integrator tells about one path.
 class RecordedPath final : public PathRecord {
  public:
+  struct Seen {
+    std::size_t vertex;  ///< at which
+    SeenElement element;
+  };
   void add(const PathVertex& vertex) override { vertices.push_back(vertex); }
+  void saw(const SeenElement& element) override { seen.push_back({vertices.size(), element}); }
   std::vector<PathVertex> vertices;
+  std::vector<Seen> seen;
 };
+
+/// "flux <0.1, 0.1, 0.1> W on 0.02, 134 particles".
+std::string elementText(const SeenElement& element);
 
 /// Which random number a differential is taken by, on arrival at each vertex: "film x", "vertex 2
 /// v", ... A path that was reduced on the way has "mixed 1" and so on.

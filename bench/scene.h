@@ -11,7 +11,8 @@
 namespace vestige::bench {
 
 inline std::unique_ptr<Scene> read(
-    const char* file, const std::vector<std::pair<std::string, std::string>>& definitions = {}) {
+    const char* file, const std::vector<std::pair<std::string, std::string>>& definitions = {},
+    const std::string& integrator = "") {
   std::vector<std::string> refused;
   const Registry registry = Registry::load(pluginFolders({}), refused);
   lang::Options options;
@@ -20,7 +21,9 @@ inline std::unique_ptr<Scene> read(
   std::vector<Schema> schemas;
   for (const Schema* s : registry.schemas()) schemas.push_back(*s);
   lang::Result text = lang::readScene(file, test::SchemaList(schemas), options);
-  auto scene = buildScene(text.scene, registry, {}, text.diagnostics);
+  BuildOptions build;
+  build.integrator = integrator;
+  auto scene = buildScene(text.scene, registry, build, text.diagnostics);
   for (const Diagnostic& d : text.diagnostics.list())
     std::fprintf(stderr, "%s: %s\n", file, d.message.c_str());
   if (!scene) std::exit(3);

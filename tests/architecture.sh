@@ -7,7 +7,7 @@ cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 status=0
 
 std='<[a-z_0-9]+>'
-system='<(execinfo|spawn|unistd|dlfcn|fcntl|signal|termios|xmmintrin|pmmintrin|immintrin|sys/[a-z]+)\.h>'
+system='<(execinfo|link|spawn|unistd|dlfcn|fcntl|signal|termios|xmmintrin|pmmintrin|immintrin|sys/[a-z]+)\.h>'
 sdk='<vestige/[a-z_0-9/]+\.h>'
 
 # includes FOLDER ALLOWED: every #include below FOLDER is one of the extended regex ALLOWED.

@@ -50,7 +50,11 @@ void Window::openPicture(const std::string& file) {
     return say(error);
   }
   opened_ = std::move(image);
-  shown_ = colours(opened_);
+  // A large one is not kept twice.
+  if (opened_.channels.size() == 3)
+    shown_ = {opened_.width, opened_.height, std::move(opened_.pixels)};
+  else
+    shown_ = colours(opened_);
   screen_->setPicture(shown_.rgb.data(), shown_.width, shown_.height);
   sheet_.width = shown_.width, sheet_.height = shown_.height;
   isDirty_ = true;
@@ -104,6 +108,8 @@ void Window::savePicture(const std::string& file) {
     image.width = snapshot_->means.width, image.height = snapshot_->means.height;
     image.channels = snapshot_->means.channels, image.pixels = snapshot_->means.pixels;
     image.metadata["vestige:samples"] = std::to_string(snapshot_->samples);
+  } else if (image.pixels.empty()) {
+    image.pixels = shown_.rgb;
   }
   if (image.width == 0) return say("there is no picture yet");
   WriteOptions options;

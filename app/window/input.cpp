@@ -12,11 +12,11 @@
 namespace vestige::app {
 namespace {
 
-constexpr Real kTurn = Real(0.006);   ///< radians a window pixel
-constexpr double kClick = 4;          ///< pixels that a click may move
-constexpr Real kCloser = Real(0.88);  ///< a notch of the wheel
-constexpr Real kStep = Real(0.8);     ///< of the distance to look_at, a second of walking
-constexpr double kUndoPause = 0.5;    ///< seconds that part two movements
+constexpr Real kTurn = Real(0.006);      ///< radians a pixel of an ordinary display
+constexpr double kClick = 4, kGrip = 8;  ///< such pixels: a click may move; beside a wipe
+constexpr Real kCloser = Real(0.88);     ///< a notch of the wheel
+constexpr Real kStep = Real(0.8);        ///< of the distance to look_at, a second of walking
+constexpr double kUndoPause = 0.5;       ///< seconds that part two movements
 constexpr std::size_t kMostUndo = 200;
 
 }  // namespace
@@ -54,6 +54,17 @@ void Window::steer(const View& view) {
   useCamera(withView(*camera(), cameraSchema(), view));
 }
 
+void Window::takeNextIntegrator() {
+  if (!open_ || !snapshot_ || open_->integrators.empty()) return;
+  const std::vector<std::string>& all = open_->integrators;
+  std::string& wanted = wish_.build.integrator;
+  const std::string now = wanted.empty() ? snapshot_->integrator : wanted;
+  const auto at = std::find(all.begin(), all.end(), now);
+  wanted = at == all.end() || at + 1 == all.end() ? all.front() : *(at + 1);
+  say("integrator " + wanted);
+  restart(wish_.way);
+}
+
 void Window::onKey(int key, int mods) {
   const bool isControl = mods & GLFW_MOD_CONTROL;
   switch (key) {
@@ -78,6 +89,9 @@ void Window::onKey(int key, int mods) {
         glfwSetClipboardString(window_, cameraText(placed(*c, cameraSchema())).c_str());
         say("the camera is in the clipboard, as text for the scene");
       }
+      break;
+    case GLFW_KEY_N:
+      takeNextIntegrator();
       break;
     case GLFW_KEY_SPACE:
       wish_.isPaused = !wish_.isPaused;
@@ -164,8 +178,9 @@ void Window::onButton(int button, bool isDown, int mods) {
     if (mods & GLFW_MOD_CONTROL && button == GLFW_MOUSE_BUTTON_LEFT)
       button_ = GLFW_MOUSE_BUTTON_LAST;  // moves the sheet
     const auto at = pixelAt(x, y);
-    isWipe_ = look_.versus == Versus::wipe && other_.width > 0 && at &&
-              std::abs(double(at->x) - look_.wipe * sheet_.width) * sheet_.zoom < 8;
+    isWipe_ =
+        look_.versus == Versus::wipe && other_.width > 0 && at &&
+        std::abs(double(at->x) - look_.wipe * sheet_.width) * sheet_.zoom < kGrip * fineness();
     return;
   }
   if (button_ < 0) return;
@@ -198,7 +213,7 @@ void Window::onButton(int button, bool isDown, int mods) {
 void Window::onMove(double x, double y) {
   const double dx = x - lastX_, dy = y - lastY_;
   if (button_ < 0) return;
-  if (std::hypot(x - downX_, y - downY_) > kClick) isDragged_ = true;
+  if (std::hypot(x - downX_, y - downY_) > kClick * fineness()) isDragged_ = true;
   if (!isDragged_) return;
   lastX_ = x, lastY_ = y;
   if (isWipe_) {
@@ -216,14 +231,15 @@ void Window::onMove(double x, double y) {
   if (!block) return;
   const auto view = viewOf(*block, cameraSchema());
   if (!view) return say("camera " + block->plugin + " has no location and look_at to move");
+  const Real perUnit = kTurn / Real(fineness());
   if (button_ == GLFW_MOUSE_BUTTON_MIDDLE) {
     const Real perPixel =
         distance(*view) / Real(std::max(100.f, sheet_.zoom * float(sheet_.width)));
     steer(pan(*view, -Real(dx) * perPixel, Real(dy) * perPixel));
   } else if (button_ == GLFW_MOUSE_BUTTON_RIGHT) {
-    steer(turn(*view, Real(dx) * kTurn, -Real(dy) * kTurn));
+    steer(turn(*view, Real(dx) * perUnit, -Real(dy) * perUnit));
   } else {
-    steer(orbit(*view, Real(dx) * kTurn, -Real(dy) * kTurn));
+    steer(orbit(*view, Real(dx) * perUnit, -Real(dy) * perUnit));
   }
 }
 

@@ -19,8 +19,4 @@ Picture withElementEdges(const Film::Means& means);
 /// tell.
 double noiseOf(const Picture& picture);
 
-/// Of the side panel and the line at the bottom, in window pixels.
-float panelWidth();
-float statusHeight();
-
 }  // namespace vestige::app

@@ -14,7 +14,7 @@ constexpr ImU32 kRay = IM_COL32(255, 210, 60, 255), kBehind = IM_COL32(0, 0, 0, 
                 kEllipse = IM_COL32(80, 220, 255, 255), kZonogon = IM_COL32(255, 90, 200, 200),
                 kVector = IM_COL32(140, 255, 120, 255);
 constexpr int kSegments = 40, kPieces = 24;
-constexpr Real kLeast = 3;  ///< window pixels: a smaller footprint is a dot
+constexpr float kDot = 3;  ///< pixels of an ordinary display: a smaller footprint is a dot
 
 ImVec2 vec(Vec2 v) { return {float(v.x), float(v.y)}; }
 
@@ -24,7 +24,7 @@ void Window::drawOverlay() {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   if (isRegion_ && isDragged_)
     list.AddRect({float(downX_ / density_), float(downY_ / density_)},
-                 {float(lastX_ / density_), float(lastY_ / density_)}, kRay, 0, 0, 2);
+                 {float(lastX_ / density_), float(lastY_ / density_)}, kRay, 0, 0, 2 * scale_);
   if (inspection_ && snapshot_ && inspection_->open == snapshot_->open) drawPath(list);
 }
 
@@ -44,7 +44,7 @@ void Window::drawPath(ImDrawList& list) {
     std::optional<Vec2> before;
     for (int i = 0; i <= kPieces; ++i) {
       const auto at = project(a + Real(i) / kPieces * (b - a));
-      if (at && before) list.AddLine(vec(*before), vec(*at), colour, width);
+      if (at && before) list.AddLine(vec(*before), vec(*at), colour, width * scale_);
       before = at;
     }
   };
@@ -52,7 +52,7 @@ void Window::drawPath(ImDrawList& list) {
     std::optional<Vec2> before = corners.empty() ? std::nullopt : project(corners.back());
     for (const Vec3 c : corners) {
       const auto at = project(c);
-      if (at && before) list.AddLine(vec(*before), vec(*at), colour, width);
+      if (at && before) list.AddLine(vec(*before), vec(*at), colour, width * scale_);
       before = at;
     }
   };
@@ -88,12 +88,16 @@ void Window::drawPath(ImDrawList& list) {
     for (const Vec3 d : r.vectors) line(at, at + Real(0.5) * d, kVector, 1.5f);
     if (!middle) continue;
     const bool isChosen = int(k) == vertex_;
-    list.AddCircleFilled(vec(*middle), isChosen ? float(kLeast) + 3 : float(kLeast) + 1, kBehind);
-    list.AddCircleFilled(vec(*middle), isChosen ? float(kLeast) + 1.5f : float(kLeast),
-                         isChosen ? kEllipse : kRay);
-    const std::string label = std::to_string(k + 1);
-    list.AddText({float(middle->x) + 7, float(middle->y) - 17}, kBehind, label.c_str());
-    list.AddText({float(middle->x) + 6, float(middle->y) - 18}, kRay, label.c_str());
+    const auto dot = [&](float radius, ImU32 colour) {
+      list.AddCircleFilled(vec(*middle), radius * scale_, colour);
+    };
+    dot(isChosen ? kDot + 3 : kDot + 1, kBehind);
+    dot(isChosen ? kDot + 1.5f : kDot, isChosen ? kEllipse : kRay);
+    const auto label = [&](float right, float up, ImU32 colour) {
+      list.AddText({float(middle->x) + right * scale_, float(middle->y) - up * scale_}, colour,
+                   std::to_string(k + 1).c_str());
+    };
+    label(7, 17, kBehind), label(6, 18, kRay);
   }
 }
 

@@ -1,73 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel beside the picture, the status line, and what the text has to be told.
+// The panel beside the picture: how it is made, seen and compared.
 #include <fmt/format.h>
-#include <imgui.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 
 #include "app/terminal.h"
 #include "app/window/layers.h"
+#include "app/window/widgets.h"
 
 namespace vestige::app {
 namespace {
 
-/// A path is told as it was given; but one in another folder than this one is long.
-std::string shortened(std::string text) {
-  std::error_code failed;
-  const std::string here = std::filesystem::current_path(failed).string() + '/';
-  for (std::size_t at; (at = text.find(here)) != text.npos;) text.erase(at, here.size());
-  return text;
-}
-
-constexpr float kPanel = 350, kStatus = 26;
-constexpr int kTexturePixels = 220;
 constexpr double kMostPixels = 16384;  ///< of a side of the film
-const char* const kBounds[] = {"as traced", "pixel", "local", "global", "safe"};
-constexpr Bound kBoundValues[] = {Bound::none, Bound::pixel, Bound::local, Bound::global,
-                                  Bound::safe};
-
-constexpr const char* kHelp = R"(left drag      turn around what is looked at
-right drag     look around
-middle drag, shift + left drag   move sideways
-wheel          nearer, farther
-W A S D E X    walk, rise, sink
-F, click       look there, and make it sharp
-click          inspect the path of that pixel
-Z              undo a movement     Home  the text's camera
-C              the camera as text, to the clipboard
-
-ctrl + wheel   zoom the picture    0  fit    1  one to one
-ctrl + drag    move the picture
-R, drag        render a part       Escape  all again
-Space          pause
-. ,            exposure up, down
-B              keep this picture   V  beside it / difference
-P              save the picture    F12  save the window
-F5             read the scene again
-Tab            hide the panels     H  this help
-ctrl + Q       close)";
-
-/// Resident memory of this process, bytes.
-double memory() {
-  double pages = 0;
-  if (FILE* f = std::fopen("/proc/self/statm", "r")) {
-    double all = 0;
-    if (std::fscanf(f, "%lf %lf", &all, &pages) != 2) pages = 0;
-    std::fclose(f);
-  }
-  return pages * double(sysconf(_SC_PAGESIZE));
-}
-
-std::string bytesText(double bytes) {
-  return bytes > 1e9 ? fmt::format("{:.2f} GB", bytes / 1e9)
-                     : fmt::format("{:.0f} MB", bytes / 1e6);
-}
-
-void text(const std::string& s) { ImGui::TextUnformatted(s.c_str()); }
-void wrapped(const std::string& s) { ImGui::TextWrapped("%s", s.c_str()); }
 
 /// A menu of words; true when another one was chosen.
 bool choose(const char* label, const std::vector<std::string>& words, std::string& chosen,
@@ -83,9 +27,6 @@ bool choose(const char* label, const std::vector<std::string>& words, std::strin
 }
 
 }  // namespace
-
-float panelWidth() { return kPanel * ImGui::GetIO().FontGlobalScale; }
-float statusHeight() { return kStatus * ImGui::GetIO().FontGlobalScale; }
 
 void Window::drawPanels() {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -256,198 +197,23 @@ void Window::drawPixelPanel() {
   text(fmt::format("radiance {:.5g}  {:.5g}  {:.5g}", c[0], c[1], c[2]));
   for (std::size_t i = 3; i < stride; ++i)
     text(fmt::format("{} {:.10g}", means->channels[i], c[i]));
+  drawElement(int(at->x), int(at->y));
 }
 
-void Window::drawInspectorPanel() {
-  if (!ImGui::CollapsingHeader("Path and footprints", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  const Inspection& i = *inspection_;
-  text(fmt::format("pixel {}, {}: <{:.3g}, {:.3g}, {:.3g}>", i.x, i.y, i.radiance.r, i.radiance.g,
-                   i.radiance.b));
-  auto sample = int(i.sample);
-  if (ImGui::InputInt("sample", &sample, 1, 16) && sample >= 0)
-    preview_->inspect(i.x, i.y, std::uint32_t(sample));
-  if (i.path.vertices.empty()) {
-    return wrapped(
-        fmt::format("the path left the scene at once, or integrator {} tells nothing "
-                    "about its paths",
-                    i.open->loaded.scene ? snapshot_->integrator : ""));
+/// Of a radiosity solution, the element under the cursor. Its flux is no quantity of a pixel, so
+/// a path is traced for it.
+void Window::drawElement(int x, int y) {
+  if (x != hoverX_ || y != hoverY_ || snapshot_ != hoverOver_) {
+    hoverX_ = x, hoverY_ = y, hoverOver_ = snapshot_;
+    preview_->hover(x, y);
   }
-  if (ImGui::Combo("bound", &boundChoice_, kBounds, IM_ARRAYSIZE(kBounds))) isTextureStale_ = true;
-  reckoning_.bound.reset();
-  if (boundChoice_ > 0) {
-    reckoning_.bound = kBoundValues[boundChoice_];
-    isTextureStale_ |= ImGui::SliderInt("of samples", &reckoning_.samples, 1, 4096, "%d",
-                                        ImGuiSliderFlags_Logarithmic);
-    auto limit = float(std::min(reckoning_.limit, Real(10)));
-    if (ImGui::SliderFloat("limit", &limit, 0.05f, 10, limit < 10 ? "%.2f" : "off",
-                           ImGuiSliderFlags_Logarithmic)) {
-      reckoning_.limit = limit < 10 ? Real(limit) : kInfinity;
-      isTextureStale_ = true;
-    }
-  }
-  const auto names = numberNames(i.path.vertices);
-  for (std::size_t k = 0; k < i.path.vertices.size(); ++k) drawVertex(k, names[k]);
-  drawTexturePanel();
-}
-
-void Window::drawVertex(std::size_t k, const std::vector<std::string>& names) {
-  const Inspection& i = *inspection_;
-  const PathVertex& v = i.path.vertices[k];
-  if (v.surface.object < 0) return text(fmt::format("{}  {}", k + 1, v.event));
-  const ObjectInfo& o = i.open->loaded.scene->object(v.surface.object);
-  const bool isChosen = int(k) == vertex_;
-  const std::string title =
-      fmt::format("{}  {} {}: {}###vertex{}", k + 1, o.shape, o.brdf, v.event, k);
-  ImGui::SetNextItemOpen(isChosen, ImGuiCond_Always);
-  const bool isOpen = ImGui::TreeNodeEx(title.c_str(), isChosen ? ImGuiTreeNodeFlags_Selected : 0);
-  if (ImGui::IsItemClicked()) vertex_ = int(k), isTextureStale_ = true;
-  if (!isOpen) return;
-  const VertexDifferentials& d = v.differentials;
-  const Region3 r = regionOf(v, reckoning_);
-  if (d.size == 0) {
-    text("carries no differentials");
-  } else {
-    text(fmt::format("M {}   N_eff {:.4g}", d.count.variables(), d.count.effective()));
-    text("number         |dV|      g    delta");
-    for (int j = 0; j < d.size; ++j)
-      text(fmt::format("{:<12}{:>8.3g}{:>8.2g}{:>8.3g}", names[std::size_t(j)],
-                       length(d.dVertex[j]), d.gradient[j], r.deltas[std::size_t(j)]));
-    text(fmt::format("|dA| {:.4g}  |dB| {:.4g}  area {:.4g}", length(r.a), length(r.b), r.area));
-    if (v.texels.x > 0) {
-      const auto texels = [&](Vec2 uv) { return std::hypot(uv.x * v.texels.x, uv.y * v.texels.y); };
-      text(fmt::format("{:.3g} x {:.3g} texels", texels(r.footprint.dUv[0]),
-                       texels(r.footprint.dUv[1])));
-    }
-  }
-  ImGui::TreePop();
-}
-
-/// The texture at the chosen vertex, and what of it the path stands for.
-void Window::drawTexturePanel() {
-  const Inspection& i = *inspection_;
-  if (vertex_ >= int(i.path.vertices.size())) return;
-  const PathVertex& v = i.path.vertices[std::size_t(vertex_)];
-  if (v.surface.object < 0) return;
-  const Region3 r = regionOf(v, reckoning_);
-  const Vec2 a = r.footprint.dUv[0], b = r.footprint.dUv[1];
-  const Real size = std::max({std::hypot(a.x, a.y), std::hypot(b.x, b.y), Real(1e-5)});
-  const Real side = Real(textureZoom_) * size;
-  if (isTextureStale_) {
-    isTextureStale_ = false;
-    const Image image =
-        textureAround(*i.open->loaded.scene, v.surface, {v.surface.uv, side}, kTexturePixels);
-    if (texture_) gl::DeleteTextures(1, &texture_);
-    texture_ = 0;
-    if (image.width > 0) {
-      std::vector<float> codes = image.pixels;
-      std::string ignored;
-      applyDisplay(look_.display, codes.data(), codes.size() / 3, 3, ignored);
-      gl::GenTextures(1, &texture_);
-      gl::BindTexture(GL_TEXTURE_2D, texture_);
-      gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-      gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-      gl::TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, image.width, image.height, 0, GL_RGB, GL_FLOAT,
-                     codes.data());
-    }
-  }
-  if (!texture_) return text("no texture there");
-  if (ImGui::SliderFloat("around", &textureZoom_, 1.5f, 1000, "%.1f times",
-                         ImGuiSliderFlags_Logarithmic))
-    isTextureStale_ = true;
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const float wide = float(kTexturePixels) * ImGui::GetIO().FontGlobalScale;
-  ImGui::Image(reinterpret_cast<ImTextureID>(std::intptr_t(texture_)), {wide, wide});
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const ImVec2 middle = {corner.x + wide / 2, corner.y + wide / 2};
-  const float k = wide / float(side);
-  ImVec2 last;
-  for (int s = 0; s <= 48; ++s) {
-    const Real t = 2 * kPi * Real(s) / 48;
-    const Vec2 p = Real(0.5) * std::cos(t) * a + Real(0.5) * std::sin(t) * b;
-    const ImVec2 at = {middle.x + k * float(p.x), middle.y - k * float(p.y)};
-    if (s > 0) list.AddLine(last, at, IM_COL32(80, 220, 255, 255), 2);
-    last = at;
-  }
-}
-
-void Window::drawComplaints() {
-  if (!preview_) return;
-  const Status s = preview_->status();
-  if (s.complaints.empty() || (hidesWarnings_ && !s.isWrong)) return;
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({12, 12}, ImGuiCond_Always);
-  ImGui::SetNextWindowSizeConstraints(
-      {0, 0}, {std::max(200.f, size.x - panelWidth() - 24), std::max(80.f, size.y * 0.6f)});
-  ImGui::SetNextWindowBgAlpha(0.88f);
-  ImGui::PushStyleColor(ImGuiCol_Border,
-                        s.isWrong ? IM_COL32(255, 80, 60, 255) : IM_COL32(230, 180, 60, 255));
-  bool isOpen = true;
-  ImGui::Begin(s.isWrong ? "Not what is wanted: an older picture is shown###complaints"
-                         : "The scene has warnings###complaints",
-               s.isWrong ? nullptr : &isOpen,
-               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_HorizontalScrollbar);
-  int shown = 0;
-  for (const Complaint& c : s.complaints) {
-    if (++shown > 6) {
-      text(fmt::format("... and {} more", s.complaints.size() - 6));
-      break;
-    }
-    ImGui::PushID(shown);
-    ImGui::PushStyleColor(ImGuiCol_Text, c.severity == Severity::error
-                                             ? IM_COL32(255, 150, 130, 255)
-                                             : IM_COL32(255, 220, 130, 255));
-    text(shortened(c.text));
-    ImGui::PopStyleColor();
-    if (c.place.line > 0) {
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("click: open in the editor");
-      if (ImGui::IsItemClicked()) openInEditor(c.place);
-    }
-    ImGui::PopID();
-  }
-  ImGui::End();
-  ImGui::PopStyleColor();
-  if (!isOpen) hidesWarnings_ = true;
-}
-
-void Window::drawStatus() {
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0, size.y - statusHeight()});
-  ImGui::SetNextWindowSize({size.x, statusHeight()});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {8, 5});
-  ImGui::Begin(
-      "status", nullptr,
-      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  std::string line;
-  if (preview_) {
-    const Status s = preview_->status();
-    line = s.phase;
-    if (s.phase == "preparing") line += fmt::format(" {:.0f} %", 100 * s.share);
-    if (snapshot_) line += fmt::format("   {}", count(snapshot_->samples, "sample"));
-    if (s.wanted > 0 && s.phase == "rendering") line += fmt::format(" of {}", s.wanted);
-    if (s.remaining >= 0 && s.phase == "rendering")
-      line += fmt::format("   {} left", durationText(s.remaining));
-    if (snapshot_) line += fmt::format("   {}", durationText(snapshot_->seconds));
-    if (const double noise = noiseOf(shown_); snapshot_ && layer_ == 0 && noise > 0)
-      line += fmt::format("   noise {:.3f}", noise);
-    if (s.raysPerSecond > 0) line += fmt::format("   {:.2f} Mrays/s", s.raysPerSecond / 1e6);
-    line += fmt::format("   first picture {:.0f} ms", 1000 * s.firstPicture);
-  }
-  line += fmt::format("   {} x {}   {:.0f} %   {}", sheet_.width, sheet_.height,
-                      100.0 * double(sheet_.zoom), bytesText(memory()));
-  if (glfwGetTime() < messageUntil_) line = message_;
-  text(line);
-  ImGui::SameLine(size.x - 70);
-  text("H: help");
-  ImGui::End();
-  ImGui::PopStyleVar();
-}
-
-void Window::drawHelp() {
-  ImGui::Begin("Keys and mouse", &showsHelp_,
-               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
-  text(kHelp);
-  ImGui::End();
+  if (!hovered_ || hovered_->path.seen.empty()) return;
+  if (hovered_->x != x || hovered_->y != y) return text("element ...\n\n");
+  const auto& [vertex, e] = hovered_->path.seen.front();
+  const std::string where = vertex > 0 ? fmt::format(" seen at vertex {}", vertex + 1) : "";
+  text(fmt::format("element{}: level {}, id {}", where, e.level, e.id));
+  text(fmt::format("flux {:.5g}  {:.5g}  {:.5g} W", e.flux.r, e.flux.g, e.flux.b));
+  text(fmt::format("area {:.5g}, {}", e.area, count(static_cast<long long>(e.hits), "particle")));
 }
 
 }  // namespace vestige::app

@@ -23,14 +23,6 @@ constexpr int kFewPixels = 96 * 96;          ///< no coarser picture is needed o
 constexpr int kMostInPass = 4;               ///< samples a pixel between two pictures
 constexpr int kFirstParticles = 20000, kMoreParticles = 4;  ///< then so many times as many
 
-/// The one that counts.
-const Block* lastIntegrator(const SceneDesc& text) {
-  const Block* last = nullptr;
-  for (const Block& b : text.blocks)
-    if (b.kind == "integrator") last = &b;
-  return last;
-}
-
 std::string firstError(const Diagnostics& diagnostics) {
   for (const Diagnostic& d : diagnostics.list())
     if (d.severity == Severity::error) return d.message;
@@ -43,7 +35,7 @@ std::vector<std::int64_t> particleRounds(const OpenScene& open, const BuildOptio
   const Parameter* row = schema ? schema->find("particles") : nullptr;
   if (!row) return {0};
   auto wanted = std::int64_t(row->initial.v[0]);
-  const Block* b = lastIntegrator(open.loaded.text.scene);
+  const Block* b = open.loaded.text.scene.last("integrator");
   if (b && b->plugin == open.scene().integratorName())
     if (const Value* given = b->find("particles")) wanted = std::int64_t(given->v[0]);
   for (const auto& [name, value] : build.settings)
@@ -83,14 +75,20 @@ void Preview::want(const Wish& wish) {
 
 void Preview::inspect(int x, int y, std::uint32_t sample) {
   const std::lock_guard lock(mutex_);
-  requests_ = {{x, y, sample}};  // an older question is no longer of interest
+  clickedAt_ = {x, y, sample};
+  changed_.notify_all();
+}
+
+void Preview::hover(int x, int y) {
+  const std::lock_guard lock(mutex_);
+  hoveredAt_ = {x, y, 0};
   changed_.notify_all();
 }
 
 void Preview::forgetInspection() {
   const std::lock_guard lock(mutex_);
   inspection_.reset();
-  requests_.clear();
+  clickedAt_.reset();
 }
 
 std::shared_ptr<const Snapshot> Preview::snapshot() const {
@@ -100,6 +98,10 @@ std::shared_ptr<const Snapshot> Preview::snapshot() const {
 std::shared_ptr<const Inspection> Preview::inspection() const {
   const std::lock_guard lock(mutex_);
   return inspection_;
+}
+std::shared_ptr<const Inspection> Preview::hovered() const {
+  const std::lock_guard lock(mutex_);
+  return hovered_;
 }
 std::shared_ptr<const OpenScene> Preview::open() const {
   const std::lock_guard lock(mutex_);
@@ -127,7 +129,7 @@ void Preview::work() {
     bool isFresh;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return quits_ || isFresh_ || !requests_.empty(); });
+      changed_.wait(lock, [&] { return quits_ || isFresh_ || clickedAt_ || hoveredAt_; });
       if (quits_) return;
       wish = wish_, isFresh = isFresh_;
       isFresh_ = cancel_ = false;
@@ -152,7 +154,7 @@ void Preview::doWish(const Wish& wish, bool isFresh) {
   }
   if (isPrepared_) answerRequests(wish);
   const std::lock_guard lock(mutex_);
-  if (!isPrepared_) requests_.clear();  // nothing can be traced
+  if (!isPrepared_) clickedAt_.reset(), hoveredAt_.reset();  // nothing can be traced
 }
 
 bool Preview::makeReady(const Wish& wish) {
@@ -193,8 +195,7 @@ bool Preview::load(const Wish& wish) {
   }
   complainAbout(fresh->loaded);
   const bool isFine = fresh->loaded.scene && isAccepted(fresh->loaded.text, input_.werror);
-  for (const Block& b : fresh->loaded.text.scene.blocks)
-    if (b.kind == "camera") fresh->camera = b;
+  if (const Block* b = fresh->loaded.text.scene.last("camera")) fresh->camera = *b;
   if (const Schema* s = fresh->registry.schema("camera", fresh->camera.plugin))
     fresh->cameraSchema = *s;
   if (isFine) fresh->integrators = fresh->registry.names("integrator");
@@ -203,7 +204,7 @@ bool Preview::load(const Wish& wish) {
   {
     const std::lock_guard lock(mutex_);
     shown_.swap(before);
-    inspection_.reset();
+    inspection_.reset(), hovered_.reset();
   }
   open_ = fresh;
   isPrepared_ = isLastRound_ = false;
@@ -368,15 +369,27 @@ void Preview::publish(const Wish& wish, const Film& film, int scale, double seco
 }
 
 void Preview::answerRequests(const Wish& wish) {
-  Request request;
+  std::optional<Request> clicked, hovered;
   {
     const std::lock_guard lock(mutex_);
-    if (requests_.empty()) return;
-    request = requests_.front();
-    requests_.clear();
+    clicked.swap(clickedAt_), hovered.swap(hoveredAt_);
   }
+  if (!clicked && !hovered) return;
+  const auto path = clicked ? answer(wish, *clicked) : nullptr;
+  const auto beneath = hovered ? answer(wish, *hovered) : nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    if (path) inspection_ = path;
+    if (beneath) hovered_ = beneath;
+  }
+  wake_();
+}
+
+/// Null beside the film.
+std::shared_ptr<const Inspection> Preview::answer(const Wish& wish, const Request& request) const {
   const FilmShape film = shapeFor(wish);
-  if (request.x < 0 || request.y < 0 || request.x >= film.width || request.y >= film.height) return;
+  if (request.x < 0 || request.y < 0 || request.x >= film.width || request.y >= film.height)
+    return nullptr;
   auto fresh = std::make_shared<Inspection>();
   fresh->open = open_, fresh->camera = open_->scene().impl().camera;
   fresh->x = request.x, fresh->y = request.y, fresh->sample = request.sample;
@@ -385,11 +398,7 @@ void Preview::answerRequests(const Wish& wish) {
   options.samples = wish.samples, options.isPrepared = true;
   fresh->radiance = inspectSample(open_->scene(), film, request.x, request.y, request.sample,
                                   options, fresh->path);
-  {
-    const std::lock_guard lock(mutex_);
-    inspection_ = std::move(fresh);
-  }
-  wake_();
+  return fresh;
 }
 
 void Preview::fail(const std::string& sentence) {

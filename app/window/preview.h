@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <condition_variable>
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -108,9 +107,12 @@ class Preview {
   /// way.
   void inspect(int x, int y, std::uint32_t sample);
   void forgetInspection();
+  /// The same beside it, for what is under the cursor: the first sample.
+  void hover(int x, int y);
 
   std::shared_ptr<const Snapshot> snapshot() const;
   std::shared_ptr<const Inspection> inspection() const;
+  std::shared_ptr<const Inspection> hovered() const;
   std::shared_ptr<const OpenScene> open() const;
   Status status() const;
   /// Every file that the scene came from or looked for, plugin libraries too.
@@ -140,6 +142,7 @@ class Preview {
   Film filmFor(const Wish& wish, int scale) const;
   void publish(const Wish& wish, const Film& film, int scale, double seconds);
   void answerRequests(const Wish& wish);
+  std::shared_ptr<const Inspection> answer(const Wish& wish, const Request& request) const;
   void fail(const std::string& sentence);
   void setPhase(const std::string& phase);
 
@@ -151,9 +154,9 @@ class Preview {
   std::condition_variable changed_;
   Wish wish_;
   bool isFresh_ = true, quits_ = false;
-  std::deque<Request> requests_;
+  std::optional<Request> clickedAt_, hoveredAt_;  ///< a newer question takes an older one's place
   std::shared_ptr<const Snapshot> snapshot_;
-  std::shared_ptr<const Inspection> inspection_;
+  std::shared_ptr<const Inspection> inspection_, hovered_;
   std::shared_ptr<const OpenScene> shown_;
   Status status_;
   std::set<std::string> files_;

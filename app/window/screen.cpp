@@ -7,6 +7,8 @@
 namespace vestige::app {
 namespace {
 
+constexpr double kMostTexels = double(1 << 25);  ///< of a texture: 0.4 GB, four times a 4K display
+
 constexpr const char* kVertex = R"(#version 150
 void main() {  // one triangle over everything
   gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);
@@ -90,8 +92,8 @@ GLuint compiled(GLenum kind, const std::string& text, std::string& error) {
 }
 
 /// Means of `step` x `step` pixels.
-std::vector<float> smaller(const float* rgb, int width, int height, int step, int& w, int& h) {
-  w = (width + step - 1) / step, h = (height + step - 1) / step;
+std::vector<float> smaller(const float* rgb, int width, int height, int step) {
+  const int w = (width + step - 1) / step, h = (height + step - 1) / step;
   std::vector<float> means(std::size_t(w) * h * 3);
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x) {
@@ -114,18 +116,15 @@ Screen::Screen() {
 }
 
 Screen::~Screen() {
-  for (const Texture* t : {&picture_, &other_})
-    if (t->name) gl::DeleteTextures(1, &t->name);
+  for (const Texture& t : textures_)
+    if (t.name) gl::DeleteTextures(1, &t.name);
   if (program_) gl::DeleteProgram(program_);
   gl::DeleteVertexArrays(1, &empty_);
 }
 
-void Screen::upload(Texture& texture, const float* rgb, int width, int height) {
-  GLint most = 0;
-  gl::GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-  std::vector<float> means;
-  if (const int step = (std::max(width, height) + most - 1) / most; step > 1)
-    means = smaller(rgb, width, height, step, width, height), rgb = means.data();
+void Screen::upload(int which, const float* rgb) {
+  Texture& texture = textures_[which];
+  const Kept& kept = kept_[which];
   gl::ActiveTexture(GL_TEXTURE0);
   gl::PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   const bool isNew = texture.name == 0;
@@ -137,28 +136,33 @@ void Screen::upload(Texture& texture, const float* rgb, int width, int height) {
     gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   }
-  if (isNew || width != texture.width || height != texture.height)
-    gl::TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, width, height, 0, GL_RGB, GL_FLOAT, rgb);
+  if (isNew || kept.width != texture.width || kept.height != texture.height)
+    gl::TexImage2D(GL_TEXTURE_2D, 0, GL_RGB32F, kept.width, kept.height, 0, GL_RGB, GL_FLOAT, rgb);
   else
-    gl::TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGB, GL_FLOAT, rgb);
-  texture.width = width, texture.height = height;
+    gl::TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kept.width, kept.height, GL_RGB, GL_FLOAT, rgb);
+  texture.width = kept.width, texture.height = kept.height;
 }
 
-void Screen::setPicture(const float* rgb, int width, int height) {
-  kept_[0].assign(rgb, rgb + std::size_t(width) * height * 3);
-  keptSize_[0][0] = width, keptSize_[0][1] = height;
+void Screen::keep(int which, const float* rgb, int width, int height) {
+  GLint most = 1;
+  gl::GetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+  const double texels = double(width) * height;
+  const int step = std::max((std::max(width, height) + most - 1) / most,
+                            int(std::ceil(std::sqrt(texels / kMostTexels))));
+  Kept& kept = kept_[which];
+  kept.width = (width + step - 1) / step, kept.height = (height + step - 1) / step;
+  kept.step = step;
+  if (step > 1)
+    kept.rgb = smaller(rgb, width, height, step);
+  else
+    kept.rgb.assign(rgb, rgb + std::size_t(width) * height * 3);
   std::string ignored;
   if (isByProcessor_) setDisplay(display_, ignored);
-  if (!isByProcessor_) upload(picture_, rgb, width, height);
+  if (!isByProcessor_) upload(which, kept.rgb.data());
 }
 
-void Screen::setOther(const float* rgb, int width, int height) {
-  kept_[1].assign(rgb, rgb + std::size_t(width) * height * 3);
-  keptSize_[1][0] = width, keptSize_[1][1] = height;
-  std::string ignored;
-  if (isByProcessor_) setDisplay(display_, ignored);
-  if (!isByProcessor_) upload(other_, rgb, width, height);
-}
+void Screen::setPicture(const float* rgb, int width, int height) { keep(0, rgb, width, height); }
+void Screen::setOther(const float* rgb, int width, int height) { keep(1, rgb, width, height); }
 
 bool Screen::setDisplay(const Display& display, std::string& error) {
   const bool isSameView =
@@ -169,14 +173,12 @@ bool Screen::setDisplay(const Display& display, std::string& error) {
   const bool isShader = !shader.empty() && build(shader, why);
   float one[3] = {1, 1, 1};  // tells whether there is such a view
   if (!isShader && !applyDisplay(display, one, 1, 3, error)) return false;
-  Texture* const textures[2] = {&picture_, &other_};
-  for (int i = 0; i < 2; ++i) {
-    if (kept_[i].empty()) continue;
-    std::vector<float> pixels = kept_[i];
+  for (int i = 0; i < 2 && (!isShader || isByProcessor_); ++i) {
+    if (kept_[i].rgb.empty()) continue;
+    std::vector<float> pixels = kept_[i].rgb;
     if (!isShader && !applyDisplay(display, pixels.data(), pixels.size() / 3, 3, error))
       return false;
-    if (!isShader || isByProcessor_)
-      upload(*textures[i], pixels.data(), keptSize_[i][0], keptSize_[i][1]);
+    upload(i, pixels.data());
   }
   if (!isShader) build(kUnchanged, error);
   isByProcessor_ = !isShader;
@@ -212,18 +214,18 @@ void Screen::draw(const Look& look, const Sheet& sheet, int windowWidth, int win
   gl::Viewport(0, 0, windowWidth, windowHeight);
   gl::Disable(GL_BLEND);
   gl::Disable(GL_SCISSOR_TEST);
-  if (!program_ || !picture_.name) {
+  const GLuint picture = textures_[0].name, other = textures_[1].name;
+  if (!program_ || !picture) {
     gl::ClearColor(0.09f, 0.09f, 0.09f, 1);
     gl::Clear(GL_COLOR_BUFFER_BIT);
     return;
   }
   gl::UseProgram(program_);
   const auto place = [&](const char* name) { return gl::GetUniformLocation(program_, name); };
-  const bool hasOther = other_.name != 0;
   gl::ActiveTexture(GL_TEXTURE1);
-  gl::BindTexture(GL_TEXTURE_2D, hasOther ? other_.name : picture_.name);
+  gl::BindTexture(GL_TEXTURE_2D, other ? other : picture);
   gl::ActiveTexture(GL_TEXTURE0);
-  gl::BindTexture(GL_TEXTURE_2D, picture_.name);
+  gl::BindTexture(GL_TEXTURE_2D, picture);
   gl::Uniform1i(place("picture"), 0);
   gl::Uniform1i(place("other"), 1);
   gl::Uniform2f(place("corner"), sheet.left, sheet.top);
@@ -237,7 +239,7 @@ void Screen::draw(const Look& look, const Sheet& sheet, int windowWidth, int win
   gl::Uniform1f(place("wipe"), look.wipe);
   gl::Uniform1i(place("channel"), int(look.channel));
   gl::Uniform1i(place("isData"), look.isData);
-  gl::Uniform1i(place("versus"), hasOther ? int(look.versus) : 0);
+  gl::Uniform1i(place("versus"), other ? int(look.versus) : 0);
   gl::BindVertexArray(empty_);
   gl::DrawArrays(GL_TRIANGLES, 0, 3);
   gl::BindVertexArray(0);

@@ -39,9 +39,11 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  /// RGB, [height][width][3]. Larger ones than the driver takes are shown at a lower resolution.
+  /// RGB, [height][width][3]. Large ones are shown at a lower resolution.
   void setPicture(const float* rgb, int width, int height);
   void setOther(const float* rgb, int width, int height);
+  /// Pixels of the picture, along either side, in one that is shown.
+  int step() const { return kept_[0].step; }
   /// False with `error` where there is no such view; then the last one stays.
   bool setDisplay(const Display& display, std::string& error);
   void draw(const Look& look, const Sheet& sheet, int windowWidth, int windowHeight);
@@ -51,16 +53,21 @@ class Screen {
     GLuint name = 0;
     int width = 0, height = 0;
   };
-  void upload(Texture& texture, const float* rgb, int width, int height);
+  /// As it was given, but for its size: another view may be wanted.
+  struct Kept {
+    std::vector<float> rgb;
+    int width = 0, height = 0, step = 1;
+  };
+  void keep(int which, const float* rgb, int width, int height);
+  void upload(int which, const float* rgb);
   bool build(const std::string& displayed, std::string& error);
 
-  Texture picture_, other_;
+  Texture textures_[2];  ///< the picture and the other one
+  Kept kept_[2];
   GLuint program_ = 0, empty_ = 0;
   Display display_;
   bool isReady_ = false;        ///< a view was chosen
   bool isByProcessor_ = false;  ///< the view needs tables: it is applied before uploading
-  std::vector<float> kept_[2];  ///< of that case, so that another exposure can be shown
-  int keptSize_[2][2] = {};
 };
 
 /// The frame as it is on the screen: RGB, 8 bits, from the top left.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kWatchEvery = 0.15;     ///< seconds
 constexpr double kFrameEvery = 1.0 / 8;  ///< while the renderer works: drawing takes a core as well
-constexpr float kMargin = 8;
+constexpr float kMargin = 8, kFontPixels = 13;
 constexpr double kTap = 0.06, kLongestWalk = 0.2;  ///< seconds of walking
 
 std::string lastError;  // GLFW tells errors to a function, before there is a window
@@ -57,14 +57,7 @@ Window::Window(const ViewRequest& request) : request_(request) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::StyleColorsDark();
-  float scale = 1;
-  int wide = 1, pixels = 1;
-  glfwGetWindowContentScale(window_, &scale, nullptr);
-  glfwGetWindowSize(window_, &wide, nullptr);
-  glfwGetFramebufferSize(window_, &pixels, nullptr);
-  scale *= float(std::max(1, wide)) / float(std::max(1, pixels));  // ImGui counts window units
-  ImGui::GetStyle().ScaleAllSizes(scale);
-  ImGui::GetIO().FontGlobalScale = scale;
+  setScale();
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // after ours: it calls them on
   ImGui_ImplOpenGL3_Init("#version 150");
   screen_ = std::make_unique<Screen>();
@@ -82,6 +75,25 @@ Window::Window(const ViewRequest& request) : request_(request) {
     preview_ = std::make_unique<Preview>(request.input, request.render, wish_, glfwPostEmptyEvent);
   }
   if (!request.reference.empty()) openReference(request.reference);
+}
+
+/// Words and panels as large as on a display of ordinary density, and as sharp as this one can.
+void Window::setScale() {
+  float fineness = 1;
+  int wide = 1, pixels = 1;
+  glfwGetWindowContentScale(window_, &fineness, nullptr);
+  glfwGetWindowSize(window_, &wide, nullptr);
+  glfwGetFramebufferSize(window_, &pixels, nullptr);
+  density_ = double(std::max(1, pixels)) / std::max(1, wide);
+  scale_ = fineness / float(density_);
+  ImGui::GetStyle().ScaleAllSizes(scale_);
+  ImFontConfig font;
+  font.SizePixels = std::round(kFontPixels * fineness);
+  // The font is made of squares: sharp where they are whole pixels, else smoothed.
+  font.PixelSnapH = true;
+  font.OversampleH = std::fmod(font.SizePixels, kFontPixels) == 0 ? 1 : 3;
+  ImGui::GetIO().Fonts->AddFontDefault(&font);
+  ImGui::GetIO().FontGlobalScale = scale_ / fineness;
 }
 
 Window::~Window() {
@@ -142,6 +154,8 @@ bool Window::needsFrame() {
   if (isDirty_) return true;
   const auto fresh = preview_ ? preview_->snapshot() : nullptr;
   const bool isNew = fresh != snapshot_;
+  if (preview_ && (preview_->inspection() != inspection_ || preview_->hovered() != hovered_))
+    return true;
   // The first picture of something else is waited for.
   if (isNew && (!snapshot_ || !fresh->wish.isSamePicture(snapshot_->wish))) return true;
   return (isNew || preview_) && glfwGetTime() - lastFrame_ > (isNew ? kFrameEvery : 0.5);
@@ -197,6 +211,7 @@ void Window::takeSnapshot() {
           inspection_->open->scene().view().usesFootprint(vertices[k].surface))
         vertex_ = int(k);
   }
+  if (const auto fresh = preview_->hovered(); fresh != hovered_) hovered_ = fresh, tellOfElement();
   const auto fresh = preview_->snapshot();
   if (!fresh || fresh == snapshot_) return;
   snapshot_ = fresh;
@@ -214,15 +229,16 @@ void Window::fit() {
   glfwGetFramebufferSize(window_, &w, &h);
   const auto shown = float(hidesPanels_ ? 0 : density_);
   const float panel = shown * panelWidth(), bar = shown * statusHeight();
-  const float wide = std::max(16.f, float(w) - panel - 2 * kMargin),
-              high = std::max(16.f, float(h) - bar - 2 * kMargin);
+  const float margin = kMargin * float(fineness());
+  const float wide = std::max(16.f, float(w) - panel - 2 * margin),
+              high = std::max(16.f, float(h) - bar - 2 * margin);
   if (sheet_.width == 0) return;
   sheet_.zoom = std::min(wide / float(sheet_.width), high / float(sheet_.height));
   // Whole pixels where it is a matter of a few of them: one picture pixel, one of the window.
   if (sheet_.zoom >= 1 && sheet_.zoom < 2) sheet_.zoom = 1;
   if (sheet_.zoom > 2) sheet_.zoom = std::floor(sheet_.zoom);
-  sheet_.left = std::round(kMargin + (wide - sheet_.zoom * float(sheet_.width)) / 2);
-  sheet_.top = std::round(kMargin + (high - sheet_.zoom * float(sheet_.height)) / 2);
+  sheet_.left = std::round(margin + (wide - sheet_.zoom * float(sheet_.width)) / 2);
+  sheet_.top = std::round(margin + (high - sheet_.zoom * float(sheet_.height)) / 2);
 }
 
 void Window::draw() {
@@ -263,6 +279,12 @@ void Window::tellOfPicture(const Snapshot* before) {
               << std::flush;
   std::cout << fmt::format("samples {} scale {}\n", snapshot_->samples, snapshot_->scale)
             << std::flush;
+}
+
+void Window::tellOfElement() {
+  if (!request_.tells || !hovered_ || hovered_->path.seen.empty()) return;
+  const SeenElement& e = hovered_->path.seen.front().element;
+  std::cout << fmt::format("element level {} {}\n", e.level, elementText(e)) << std::flush;
 }
 
 void Window::tellOfWaits() {

@@ -33,6 +33,7 @@ class Window {
 
  private:
   // window.cpp: the loop
+  void setScale();
   void installCallbacks();
   void update();
   void readAgain();
@@ -56,6 +57,7 @@ class Window {
   void undo();
   void useCamera(Block camera);
   void restart(int& counter);
+  void takeNextIntegrator();
   // panels.cpp: ImGui
   void drawPanels();
   void drawPicturePanel();
@@ -63,9 +65,12 @@ class Window {
   void drawCameraPanel();
   void drawComparePanel();
   void drawPixelPanel();
+  void drawElement(int x, int y);
+  // inspector.cpp: the clicked path
   void drawInspectorPanel();
   void drawVertex(std::size_t index, const std::vector<std::string>& names);
   void drawTexturePanel();
+  // messages.cpp
   void drawComplaints();
   void drawStatus();
   void drawHelp();
@@ -83,6 +88,13 @@ class Window {
   /// Of --events.
   void tell(const std::string& event);
   void tellOfPicture(const Snapshot* before);
+  void tellOfElement();
+
+  /// Of the side panel and the line at the bottom, in what ImGui counts in.
+  float panelWidth() const { return 350 * scale_; }
+  float statusHeight() const { return 26 * scale_; }
+  /// Pixels of the frame where an ordinary display has one.
+  double fineness() const { return density_ * double(scale_); }
 
   /// What the camera is now: in the hand, or in the text.
   std::optional<Block> camera() const;
@@ -123,7 +135,9 @@ class Window {
   double downX_ = 0, downY_ = 0, lastX_ = 0, lastY_ = 0;
 
   // The inspector
-  std::shared_ptr<const Inspection> inspection_;
+  std::shared_ptr<const Inspection> inspection_, hovered_;
+  int hoverX_ = -1, hoverY_ = -1;              ///< what was asked about last
+  std::shared_ptr<const Snapshot> hoverOver_;  ///< ... and in which picture
   Reckoning reckoning_;
   int boundChoice_ = 0;
   int vertex_ = 0;         ///< whose texture is shown
@@ -134,7 +148,9 @@ class Window {
   bool isDirty_ = true, hidesPanels_ = false, showsHelp_ = false, hidesWarnings_ = false,
        wantsShot_ = false;
   double lastFrame_ = 0, lastWatch_ = 0, lastWalk_ = 0;
-  double density_ = 1;         ///< pixels of the frame for one of the window: HiDPI
+  // HiDPI: a window counts in pixels of its frame (X11) or in larger units (macOS, Wayland).
+  double density_ = 1;         ///< pixels of the frame for one of the window's units
+  float scale_ = 1;            ///< of words and panels, in the window's units
   double asked_ = -1;          ///< when the user last asked for another picture; -1: it is shown
   std::vector<double> waits_;  ///< seconds from there to its first frame
   std::string told_;

@@ -16,7 +16,7 @@
 namespace vestige {
 namespace {
 
-constexpr int kTile = 16;  ///< pixels; small enough that a cancel is answered at once
+constexpr int kTile = 16;  ///< pixels
 constexpr int kDefaultSamples = 16;
 constexpr int kLeastShared = 8;  ///< samples a pixel that tell where more of them belong
 constexpr auto kTick = std::chrono::milliseconds(100);
@@ -100,38 +100,44 @@ void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& co
   job.film.add(x, y, start->ray.weight * job.integrator.estimate(context), aovs, counters);
 }
 
-/// Calls `visit(x, y)` for each pixel of a tile that wants samples.
+/// Calls `visit(x, y)` for each pixel of a tile that wants samples, until it says false.
 template <class Visit>
-void forPixels(const Job& job, int tile, const Visit& visit) {
+bool forPixels(const Job& job, int tile, const Visit& visit) {
   const Crop crop = job.film.crop();
   const int x0 = crop.x0 + tile % job.tilesX * kTile, y0 = crop.y0 + tile / job.tilesX * kTile;
   for (int y = y0; y < std::min(y0 + kTile, crop.y1); ++y)
     for (int x = x0; x < std::min(x0 + kTile, crop.x1); ++x)
-      if (job.wants(x, y)) visit(x, y);
+      if (job.wants(x, y) && !visit(x, y)) return false;
+  return true;
 }
 
 /// Tiles with pixels that want samples.
 std::vector<int> openTiles(const Job& job) {
   std::vector<int> tiles;
   for (int tile = 0; tile < job.tilesX * job.tilesY; ++tile) {
-    bool isOpen = false;
-    forPixels(job, tile, [&](int, int) { isOpen = true; });
-    if (isOpen) tiles.push_back(tile);
+    const bool isClosed = forPixels(job, tile, [](int, int) { return false; });
+    if (!isClosed) tiles.push_back(tile);
   }
   return tiles;
 }
 
-void renderTile(const Job& job, int tile, std::uint32_t first, int count, Counters& counters) {
-  forPixels(job, tile, [&](int x, int y) {
+/// False if it was stopped, which is asked before each sample: one may be a large tree of rays.
+template <class IsStopped>
+bool renderTile(const Job& job, int tile, std::uint32_t first, int count, Counters& counters,
+                const IsStopped& isStopped) {
+  return forPixels(job, tile, [&](int x, int y) {
     // A pass that was cut short left some pixels ahead of the others.
     for (std::uint32_t s = std::max(first, job.film.samples(x, y));
-         s < first + std::uint32_t(count); ++s)
+         s < first + std::uint32_t(count); ++s) {
+      if (isStopped()) return false;
       samplePixel(job, x, y, s, counters);
+    }
+    return true;
   });
 }
 
 /// One pass over some tiles by several threads, watched by the calling thread. False if `stop` said
-/// so before the end; tiles under way are finished.
+/// so before the end; samples under way are finished.
 class Pass {
  public:
   Pass(const Job& job, const std::vector<int>& tiles, std::uint32_t first, int count,
@@ -165,15 +171,13 @@ class Pass {
       std::unique_lock lock(mutex_);
       ready_.wait(lock, [this] { return started_; });
     }
-    for (std::size_t i; !isStopped() && (i = std::size_t(next_++)) < tiles_.size(); ++done_)
-      renderTile(job_, tiles_[i], first_, count_, counters);
+    const auto isStopped = [this] { return stop_ || (cancel_ && *cancel_); };
+    for (std::size_t i; (i = std::size_t(next_++)) < tiles_.size(); ++done_)
+      if (!renderTile(job_, tiles_[i], first_, count_, counters, isStopped)) break;
     const std::lock_guard lock(mutex_);
     add(counters_, counters);
     if (--running_ == 0) finished_.notify_all();
   }
-
-  /// Asked before each tile: a window waits for the answer.
-  bool isStopped() const noexcept { return stop_ || (cancel_ && cancel_->load()); }
 
   const Job& job_;
   const std::vector<int>& tiles_;

@@ -51,13 +51,6 @@ std::string described(const Block& block) {
   return block.plugin.empty() ? block.kind : block.kind + " " + block.plugin;
 }
 
-/// The one that counts: a later camera or integrator replaces an earlier one.
-const Block* lastOf(const char* kind, const SceneDesc& description) {
-  const auto found = std::find_if(description.blocks.rbegin(), description.blocks.rend(),
-                                  [&](const Block& b) { return b.kind == kind; });
-  return found == description.blocks.rend() ? nullptr : &*found;
-}
-
 }  // namespace
 
 SceneBuilder::SceneBuilder(Scene& scene, const SceneDesc& description, const Registry& registry,
@@ -332,7 +325,7 @@ void SceneBuilder::addLight(const Block& block) {
 }
 
 void SceneBuilder::addCamera() {
-  const Block* block = lastOf("camera", description_);
+  const Block* block = description_.last("camera");
   if (!block) {
     error({},
           "the scene has no camera: write one, as 'camera pinhole { location <0, 1, -5> look_at "
@@ -345,7 +338,7 @@ void SceneBuilder::addCamera() {
 void SceneBuilder::addIntegrator() {
   Block wanted;
   wanted.kind = "integrator", wanted.plugin = "path";
-  if (const Block* block = lastOf("integrator", description_)) wanted = *block;
+  if (const Block* block = description_.last("integrator")) wanted = *block;
   if (!options_.integrator.empty() && options_.integrator != wanted.plugin) {
     wanted = {};
     wanted.kind = "integrator", wanted.plugin = options_.integrator;

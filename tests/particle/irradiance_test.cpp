@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the picture sees of the elements: one value on each, or a surface without jumps.
+#include <map>
 #include <random>
 
 #include "particle/solve.h"
@@ -118,6 +119,38 @@ TEST_CASE("the finest elements of neighbours differ by one level at most", "[par
   const Irradiance light(scene->view(), h, 1);
   // From one element of level 8 to level 1 beside it takes many more than the 4 + 3 * 8 there were.
   CHECK(light.leaves() > 3 * 8 + 1);
+}
+
+TEST_CASE("all elements of a closed room together get what its lamp sends, and sends again",
+          "[particle]") {
+  // Of flux P a wall that reflects r of it sees P + r P + r^2 P + ... = P / (1 - r).
+  const double r = 0.4, power = 4 * double(kPi) * 1.5;
+  const Solution s = solve(box("brdf lambert { diffuse rgb 0.4 }") +
+                               "light point { <0.7, 1.1, 1.2> intensity rgb 1.5 }\n",
+                           200000, settings(Oracle::footprint));
+  const SceneView& scene = s.scene->view();
+  const Irradiance light(scene, *s.hierarchy, s.scale());
+  std::map<std::pair<int, std::uint32_t>, SeenElement> seen;
+  constexpr int kSide = 512;  // finer than min_area allows elements to be
+  for (int patch = 0; patch < 6; ++patch)
+    for (const bool back : {false, true})
+      for (int i = 0; i < kSide * kSide; ++i) {
+        const Place p{patch, back, {Real(i % kSide + 0.5) / kSide, Real(i / kSide + 0.5) / kSide}};
+        const SeenElement e = light.seen(p);
+        CHECK_FALSE(e.area <= 0);
+        if (light.at(p, false).r > 0)
+          REQUIRE(double(e.flux.r / e.area) == Approx(double(light.at(p, false).r)));
+        seen[{2 * patch + back, e.id}] = e;
+      }
+  double flux = 0, area = 0;
+  std::uint64_t hits = 0;
+  for (const auto& [where, e] : seen)
+    flux += double(e.flux.r), area += double(e.area), hits += e.hits;
+  CHECK(seen.size() > 500);
+  CHECK(flux == Approx(power / (1 - r)).epsilon(0.01));
+  CHECK(area == Approx(2 * 24).epsilon(0.001));
+  CHECK(hits <= s.booking.hits);
+  CHECK(hits > 0);
 }
 
 TEST_CASE("a side that nothing reached is dark and costs nothing", "[particle]") {

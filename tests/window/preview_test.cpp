@@ -195,6 +195,38 @@ TEST_CASE("the particle integrator refines in rounds", "[window][preview]") {
   CHECK(b.preview->snapshot()->means.pixels == rendered(b, 1).pixels);
 }
 
+TEST_CASE("the element under the cursor is told, as bright as its flux makes it",
+          "[window][preview]") {
+  Bench b(
+      "camera pinhole { location <0, 1, -4> look_at <0, 0.7, 0> }\n"
+      "film { resolution <40, 30> }\n"
+      "light area { <-1, 3, -1>, <2, 0, 0>, <0, 0, 2> radiance rgb 5 }\n"
+      "quad { <-3, 0, -3>, <6, 0, 0>, <0, 0, 6> brdf lambert { diffuse rgb 0.4 } }\n"
+      "integrator particle { particles 50000 samples 1 show \"elements\" }\n");
+  REQUIRE(b.comes([&] { return b.isFinished(1); }));
+  b.preview->hover(20, 22);
+  REQUIRE(b.comes([&] { return b.preview->hovered() != nullptr; }));
+  const auto i = b.preview->hovered();
+  CHECK_FALSE(b.preview->inspection());  // that is another question
+  REQUIRE(i->path.seen.size() == 1);
+  const SeenElement& e = i->path.seen[0].element;
+  CHECK(i->path.seen[0].vertex == 0);
+  CHECK(e.level > 0);
+  CHECK(e.area == Approx(36 / std::pow(4, e.level)).epsilon(1e-4));
+  // What a matt surface sends on of it: rho / pi E.
+  CHECK(e.flux.r > 0);
+  CHECK(double(i->radiance.r) ==
+        Approx(0.4 / double(kPi) * double(e.flux.r / e.area)).epsilon(1e-4));
+  CHECK(b.preview->snapshot()->means.pixels[(22 * 40 + 20) * 3] ==
+        Approx(i->radiance.r).epsilon(1e-4));
+  b.rewrite(scene("<0.8, 0.1, 0.1>", 1));
+  REQUIRE(b.comes([&] { return b.isFinished(1); }));
+  CHECK_FALSE(b.preview->hovered());
+  b.preview->hover(80, 60);
+  REQUIRE(b.comes([&] { return b.preview->hovered() != nullptr; }));
+  CHECK(b.preview->hovered()->path.seen.empty());  // paths see none
+}
+
 TEST_CASE("hasty wishes neither crash nor starve", "[window][preview]") {
   Bench b(scene("<0.8, 0.1, 0.1>", 8));
   std::mt19937 random(7);
@@ -225,6 +257,7 @@ TEST_CASE("hasty wishes neither crash nor starve", "[window][preview]") {
         break;
       case 6:
         b.preview->inspect(int(random() % 200), int(random() % 200), random() % 9);
+        b.preview->hover(int(random() % 200), int(random() % 200));
         break;
       default:
         ++b.wish.view;

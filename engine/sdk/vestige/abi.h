@@ -23,6 +23,7 @@ extern "C" struct VestigeError {
 /// Light::isDrawn(); an InputBuffer is not initialised.
 /// SDK 5: Brdf::matt(); SceneView::patchPoint(); Preparation has a time and warnings; Aovs of
 /// elements; Integrator::usesJacobian().
+/// SDK 6: PathRecord::saw().
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended
@@ -42,7 +43,7 @@ extern "C" struct VestigePlugin {
 namespace vestige {
 
 inline constexpr std::uint64_t kPluginMagic = 0x3145474954534556;  ///< "VESTIGE1", little endian
-inline constexpr std::uint32_t kSdkMajor = 5, kSdkMinor = 0;
+inline constexpr std::uint32_t kSdkMajor = 6, kSdkMinor = 0;
 
 /// Bits of VestigePlugin::lacks: methods that the plugin's class leaves as its interface has them.
 inline constexpr std::uint32_t kLacksSampleDerivatives = 1, kLacksLogGradient = 2;

@@ -245,10 +245,20 @@ struct PathVertex {
   Vec2 texels;  ///< SceneView::texels()
   VertexDifferentials differentials;
 };
+/// An element of a radiosity solution that a path saw.
+struct SeenElement {
+  int level = 0;           ///< divisions below its patch; -1: a cluster of patches
+  std::uint32_t id = 0;    ///< as Aovs::elementId
+  Real area = 0;           ///< scene units squared
+  Rgb flux;                ///< W that arrive in it, with its share of what wider ones above it hold
+  std::uint64_t hits = 0;  ///< particles that left their flux in it and in no wider one
+};
 class PathRecord {
  public:
   virtual ~PathRecord() = default;
   virtual void add(const PathVertex& vertex) = 0;
+  /// ... at the vertex that is added next.
+  virtual void saw(const SeenElement&) {}
 };
 
 /// One call of estimate(): which sample of which pixel, and where to leave results.

@@ -69,6 +69,13 @@ struct SceneDesc {
   std::vector<Block> blocks;
   std::vector<std::string> files;  ///< by Span::file, to find what a text names beside itself
   std::uint64_t hash = 0;          ///< of the meaning, for the image's metadata
+
+  /// The last of a kind, which is the one that counts of cameras and integrators; or null.
+  const Block* last(const std::string& kind) const noexcept {
+    for (auto b = blocks.rbegin(); b != blocks.rend(); ++b)
+      if (b->kind == kind) return &*b;
+    return nullptr;
+  }
 };
 
 }  // namespace vestige

@@ -293,4 +293,19 @@ ElementInfo Irradiance::element(const Place& p) const noexcept {
   return {f.node->level, f.path >> 8};
 }
 
+SeenElement Irradiance::seen(const Place& p) const noexcept {
+  ElementId id = hierarchy_->root(p);
+  if (id == 0) return {};
+  // Not by the nodes: balancing has divided some elements that are one.
+  const Elements& all = hierarchy_->elements();
+  const bool isTriangle = hierarchy_->cellOf(p.patch).isTriangle;
+  Vec2 local = hierarchy_->local(p);
+  while (const ElementId first = all[id].children)
+    id = first + ElementId(descend(local, isTriangle));
+  const ElementInfo info = element(p);
+  if (info.level < 0) id = all[id].parent;
+  const Real area = Real(all[id].area);
+  return {info.level, info.id, area, area * at(p, false), all[id].hits()};
+}
+
 }  // namespace vestige::particle

@@ -28,6 +28,8 @@ class Irradiance {
   /// W/m^2, blended between vertices; constant on each element if not `smooth`. [any thread]
   Rgb at(const Place& p, bool smooth) const noexcept;
   ElementInfo element(const Place& p) const noexcept;
+  /// The same with all that is known of it: for somebody who asks about one place.
+  SeenElement seen(const Place& p) const noexcept;
 
   std::size_t leaves() const noexcept { return leaves_; }
 

@@ -90,6 +90,7 @@ bool Viewing::look(Path& p) const noexcept {
   const bool isKept = !isBlack(matt.albedo) && light.covers(place);
   const bool isShown = isKept && !p.gathers;
   const bool isGathered = isKept && p.gathers;
+  if (isKept && p.c.record) p.c.record->saw(light.seen(place));
   if (isShown) {
     const Real edges = wires && p.edge == 1 ? wire(p.c, place) : Real(1);
     p.radiance +=
