@@ -101,6 +101,8 @@ void Window::makeFlip() {
 
 void Window::savePicture(const std::string& file) {
   std::string name = file;
+  if (preview_ && std::filesystem::path(name).extension() == ".checkpoint")
+    return preview_->keep(name);
   if (name.empty()) name = std::filesystem::path(request_.input.file).stem().string() + "-view.png";
   Image image = opened_;
   if (snapshot_) {

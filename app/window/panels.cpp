@@ -160,7 +160,9 @@ void Window::drawCameraPanel() {
 void Window::drawComparePanel() {
   if (!ImGui::CollapsingHeader("Compare, save")) return;
   ImGui::InputText("##save", file_, sizeof file_);
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("to save to: .exr and .hdr keep radiance");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "to save to: .exr and .hdr keep radiance, .checkpoint what `vestige render` goes on from");
   ImGui::SameLine();
   if (ImGui::Button("save")) savePicture(file_);
   ImGui::InputText("##compare", reference_, sizeof reference_);

@@ -6,10 +6,11 @@
 #include <new>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "app/checkpoint.h"
 #include "app/crash.h"
-
+#include "app/terminal.h"
 #include "engine/scene/scene_impl.h"
 #include "lang/source.h"
 
@@ -91,6 +92,18 @@ void Preview::forgetInspection() {
   clickedAt_.reset();
 }
 
+void Preview::keep(const std::string& file) {
+  const std::lock_guard lock(mutex_);
+  keepAs_ = file;
+  isFresh_ = cancel_ = true;  // the film stands still, and goes on
+  changed_.notify_all();
+}
+
+std::string Preview::news() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(news_, "");
+}
+
 std::shared_ptr<const Snapshot> Preview::snapshot() const {
   const std::lock_guard lock(mutex_);
   return snapshot_;
@@ -147,6 +160,7 @@ void Preview::work() {
 }
 
 void Preview::doWish(const Wish& wish, bool isFresh) {
+  keepIfAsked(wish);
   if (isFresh && wish.isPaused) setPhase("paused");
   if (isFresh && !wish.isPaused) {
     wished_ = secondsNow(), hasFirst_ = false;
@@ -179,12 +193,13 @@ bool Preview::load(const Wish& wish) {
     readAt_ = std::filesystem::file_time_type::clock::now();
   }
   auto fresh = std::make_shared<OpenScene>(loadRegistry(input_.pluginPaths));
-  std::set<std::string> files = {input_.file};
   BuildOptions build = wish.build;
-  build.files = &files;
+  build.files = &fresh->looked;
   build.cache = cache_;
   build.integrator.clear(), build.footprint.clear(), build.settings.clear();  // see renew()
   fresh->loaded = loadScene(input_, fresh->registry, Stage::built, build);
+  std::set<std::string> files = fresh->looked;
+  files.insert(input_.file);
   for (int i = 0; i < fresh->loaded.text.sources->size(); ++i)
     files.insert(fresh->loaded.text.sources->text(i).name);
   for (const std::string& file : fresh->registry.loadedFiles()) files.insert(file);
@@ -289,7 +304,7 @@ void Preview::renderPicture(const Wish& wish) {
       if (!renderStage(wish, film, 1, 1)) return;
       continue;
     }
-    film_ = filmFor(wish, 1), filmWish_ = wish;
+    film_ = filmFor(wish, 1), filmWish_ = wish, effort_ = {};
     if (!renderStage(wish, *film_, 1, wish.samples)) return;
   }
   setPhase("finished");
@@ -335,6 +350,8 @@ bool Preview::renderStage(const Wish& wish, Film& film, int scale, int samples) 
   setPhase("rendering");
   const RenderResult result = render(scene, film, options);
   isPrepared_ = isPrepared_ || result.counters.paths > 0;
+  if (film_ && &film == &*film_)
+    effort_.seconds += result.seconds, add(effort_.counters, result.counters);
   {
     const std::lock_guard lock(mutex_);
     if (result.seconds > 0)
@@ -366,6 +383,59 @@ void Preview::publish(const Wish& wish, const Film& film, int scale, double seco
     snapshot_.swap(published);
   }  // the one before dies without the lock
   wake_();
+}
+
+void Preview::keepIfAsked(const Wish& wish) {
+  std::string file;
+  {
+    const std::lock_guard lock(mutex_);
+    file.swap(keepAs_);
+  }
+  if (file.empty()) return;
+  std::string said = "there is no whole picture to keep yet";
+  if (film_ && film_->minSamples() > 0 && wish.isSamePicture(filmWish_)) {
+    // The camera in hand is that of the text into which it was pasted.
+    SceneDesc text = open_->loaded.text.scene;
+    if (wish.camera)
+      for (auto b = text.blocks.rbegin(); b != text.blocks.rend(); ++b)
+        if (b->kind == "camera") {
+          *b = *wish.camera;
+          break;
+        }
+    BuildOptions build = wish.build;
+    build.files = &open_->looked;
+    RenderOptions render = render_;
+    render.samples = wish.samples;
+    CheckpointFile checkpoint(
+        file, checkpointLabel(text, open_->scene(), open_->registry, build, render));
+    RenderResult soFar;
+    soFar.seconds = effort_.seconds, soFar.counters = effort_.counters;
+    said = howToGoOn(wish, file);
+    checkpoint.save(withoutAovs(*film_), open_->scene(), soFar,
+                    [&](const std::string& sentence) { said = sentence; });
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    news_ = said;
+  }
+  wake_();
+}
+
+/// With the options that the film was made with.
+std::string Preview::howToGoOn(const Wish& wish, const std::string& file) const {
+  const FilmShape scenes = filmShape(open_->scene(), 0, 0, nullptr);
+  std::string options;
+  if (film_->width() != scenes.width || film_->height() != scenes.height)
+    options += fmt::format(" --width {} --height {}", film_->width(), film_->height());
+  if (wish.region) {
+    const auto& r = *wish.region;
+    options += fmt::format(" --crop {},{},{},{}", r[0], r[1], r[2], r[3]);
+  }
+  if (!wish.build.integrator.empty()) options += " --integrator " + wish.build.integrator;
+  if (!wish.build.footprint.empty()) options += " --footprint " + wish.build.footprint;
+  return fmt::format("kept {}: vestige render {}{} --checkpoint {} --spp ... goes on{}",
+                     count(film_->minSamples(), "sample"), input_.file, options, file,
+                     wish.camera ? ", with this camera in the text (C)" : "");
 }
 
 void Preview::answerRequests(const Wish& wish) {

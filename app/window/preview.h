@@ -14,6 +14,7 @@
 
 #include "app/path_text.h"
 #include "app/scene_input.h"
+#include "engine/film/checkpoint.h"
 #include "engine/render/session.h"
 #include "engine/scene/build_cache.h"
 
@@ -48,6 +49,7 @@ struct OpenScene {
   Block camera;
   Schema cameraSchema;
   std::vector<std::string> integrators;
+  std::set<std::string> looked;  ///< files that the builder looked for
   Scene& scene() const { return *loaded.scene; }
 };
 
@@ -109,6 +111,10 @@ class Preview {
   void forgetInspection();
   /// The same beside it, for what is under the cursor: the first sample.
   void hover(int x, int y);
+  /// Keeps the picture so far in a file from which `vestige render --checkpoint` goes on; soon.
+  /// What came of it is a sentence that news() tells once.
+  void keep(const std::string& file);
+  std::string news();
 
   std::shared_ptr<const Snapshot> snapshot() const;
   std::shared_ptr<const Inspection> inspection() const;
@@ -141,6 +147,8 @@ class Preview {
   FilmShape shapeFor(const Wish& wish) const;
   Film filmFor(const Wish& wish, int scale) const;
   void publish(const Wish& wish, const Film& film, int scale, double seconds);
+  void keepIfAsked(const Wish& wish);
+  std::string howToGoOn(const Wish& wish, const std::string& file) const;
   void answerRequests(const Wish& wish);
   std::shared_ptr<const Inspection> answer(const Wish& wish, const Request& request) const;
   void fail(const std::string& sentence);
@@ -155,6 +163,8 @@ class Preview {
   Wish wish_;
   bool isFresh_ = true, quits_ = false;
   std::optional<Request> clickedAt_, hoveredAt_;  ///< a newer question takes an older one's place
+  std::string keepAs_;                            ///< a file; "": nobody asked
+  std::string news_;
   std::shared_ptr<const Snapshot> snapshot_;
   std::shared_ptr<const Inspection> inspection_, hovered_;
   std::shared_ptr<const OpenScene> shown_;
@@ -180,6 +190,7 @@ class Preview {
   int coarse_ = 8;            ///< how coarse the first picture is: as much as it takes to come soon
   std::optional<Film> film_;  ///< of the last stage, as far as it got
   Wish filmWish_;             ///< what it was made for
+  Effort effort_;             ///< that it took
   std::thread thread_;
 };
 

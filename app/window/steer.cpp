@@ -47,7 +47,10 @@ Vec3 turned(const View& v, Real right, Real up) {
   return rotated(level, sky, right);
 }
 
-std::string text(double x) { return fmt::format("{:.6g}", std::abs(x) < 1e-9 ? 0.0 : x); }
+std::string text(double x) { return fmt::format("{:.7g}", std::abs(x) < 1e-9 ? 0.0 : x); }
+/// As the text would say it: who pastes the camera has the one that was seen, to the bit.
+double rounded(double x) { return std::stod(text(x)); }
+Value rounded(Vec3 v) { return vectorValue({rounded(v.x), rounded(v.y), rounded(v.z)}); }
 
 std::string text(const Value& v) {
   switch (v.kind) {
@@ -80,22 +83,21 @@ std::optional<View> viewOf(const Block& camera, const Schema& schema) {
 
 Block withView(const Block& camera, const Schema& schema, const View& view) {
   Block b = camera;
-  const auto vector = [](Vec3 v) { return vectorValue({v.x, v.y, v.z}); };
   // What the transforms did to lengths and points they do no more.
   const double size = std::cbrt(std::abs(camera.world.determinant()));
   for (Setting& s : b.settings) {
     const Parameter* row = schema.find(s.name);
     if (!row || row->unit != "scene units") continue;
-    if (row->type == ValueType::real) s.value.v[0] *= size;
+    if (row->type == ValueType::real) s.value.v[0] = rounded(s.value.v[0] * size);
     if (row->type == ValueType::vec3) {
       const Vec3 p =
           camera.world.point({Real(s.value.v[0]), Real(s.value.v[1]), Real(s.value.v[2])});
-      s.value = vector(p);
+      s.value = rounded(p);
     }
   }
-  set(b, "location", vector(view.location));
-  set(b, "look_at", vector(view.lookAt));
-  if (schema.find("sky")) set(b, "sky", vector(view.sky));
+  set(b, "location", rounded(view.location));
+  set(b, "look_at", rounded(view.lookAt));
+  if (schema.find("sky")) set(b, "sky", rounded(view.sky));
   b.own = b.world = {};
   return b;
 }
@@ -109,7 +111,7 @@ Block withNumber(Block camera, const std::string& name, double value) {
   // The camera takes one of them.
   if (name == "focus_distance")
     std::erase_if(camera.settings, [](const Setting& s) { return s.name == "focal_point"; });
-  set(camera, name, numberValue(value));
+  set(camera, name, numberValue(rounded(value)));
   return camera;
 }
 

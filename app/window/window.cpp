@@ -211,6 +211,7 @@ void Window::takeSnapshot() {
           inspection_->open->scene().view().usesFootprint(vertices[k].surface))
         vertex_ = int(k);
   }
+  if (const std::string news = preview_->news(); !news.empty()) say(news);
   if (const auto fresh = preview_->hovered(); fresh != hovered_) hovered_ = fresh, tellOfElement();
   const auto fresh = preview_->snapshot();
   if (!fresh || fresh == snapshot_) return;

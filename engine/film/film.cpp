@@ -162,4 +162,14 @@ Film::Means Film::means() const {
   return m;
 }
 
+Film withoutAovs(const Film& film) {
+  Film bare(film.width(), film.height(), film.crop(), {});
+  const std::size_t pixels = film.counts().size();
+  const std::size_t from = film.sums().size() / pixels, to = bare.sums().size() / pixels;
+  for (std::size_t i = 0; i < pixels; ++i)
+    std::copy_n(&film.sums()[i * from], to, &bare.sums()[i * to]);
+  std::copy(film.counts().begin(), film.counts().end(), bare.counts().begin());
+  return bare;
+}
+
 }  // namespace vestige

@@ -89,4 +89,7 @@ class Film {
   std::vector<std::uint32_t> counts_;
 };
 
+/// Its radiance alone.
+Film withoutAovs(const Film& film);
+
 }  // namespace vestige

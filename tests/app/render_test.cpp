@@ -217,6 +217,26 @@ TEST_CASE("--noise says what it came to", "[app]") {
   CHECK(line.at("quiet_pixels") == 4096);
 }
 
+TEST_CASE("--adaptive shares a mean number of samples out", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("a.scene", smallScene());
+  const Run r = runVestige({scene, "-o", folder / "a.png", "--adaptive", "--spp", "32", "--width",
+                            "64", "--stats", "-", "--progress", "plain"});
+  INFO(r.err);
+  REQUIRE(r.exit == 0);
+  CHECK_THAT(r.err, containsText("8 to ") && containsText(" on average") && !containsText("quiet"));
+  const json s = json::parse(r.out);
+  CHECK(s.at("samples") == 8);
+  CHECK(s.at("samples_most") > 32);
+  CHECK(s.at("samples_mean") <= 32);
+  CHECK(s.at("samples_mean") > 24);
+  CHECK(s.at("samples_mean").get<double>() * 4096 == s.at("paths"));
+  CHECK_FALSE(s.contains("quiet_pixels"));
+  const Run both = runVestige({scene, "-o", folder / "a.png", "--adaptive", "--noise", "0.1"});
+  CHECK(both.exit == 2);
+  CHECK_THAT(both.err, containsText("--adaptive does not go with --noise"));
+}
+
 TEST_CASE("--noise: --spp and --time end it too, and progress tells how much is quiet", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());

@@ -8,6 +8,7 @@
 
 #include "app/run.h"
 #include "app/window/footprint_region.h"
+#include "app/window/steer.h"
 #include "support/catch.h"
 
 using namespace vestige;
@@ -305,6 +306,60 @@ TEST_CASE("more samples start again where footprints go by their number", "[wind
   b.want();
   REQUIRE(b.comes([&] { return b.isFinished(16); }));
   CHECK(b.preview->snapshot()->means.pixels == rendered(b, 16).pixels);
+}
+
+TEST_CASE("`vestige render` goes on from a kept picture, with the camera in hand",
+          "[window][preview]") {
+  Bench b(scene("rgb <0.2, 0.5, 0.9>", 1 << 20));
+  REQUIRE(b.comes([&] { return b.preview->open() != nullptr; }));
+  const auto open = b.preview->open();
+  const auto view = viewOf(open->camera, open->cameraSchema);
+  REQUIRE(view);
+  const Block moved =
+      withView(open->camera, open->cameraSchema, orbit(*view, Real(0.1), Real(0.2)));
+  b.wish.camera = moved, ++b.wish.view;
+  b.wish.aovs = {Aov::depth}, ++b.wish.picture;
+  b.want();
+  REQUIRE(b.comes([&] {
+    const auto s = b.preview->snapshot();
+    return s && s->samples >= 4 && s->wish.view == b.wish.view;
+  }));
+  const std::string kept = b.folder / "a.checkpoint";
+  b.preview->keep(kept);
+  std::string news;
+  REQUIRE(b.comes([&] { return !(news = b.preview->news()).empty(); }));
+  INFO(news);
+  CHECK(news.find("--checkpoint " + kept) != news.npos);
+  REQUIRE(std::filesystem::exists(kept));
+  int samples = 0;
+  REQUIRE(std::sscanf(news.c_str(), "kept %d samples", &samples) == 1);
+  b.preview.reset();
+
+  std::string text = scene("rgb <0.2, 0.5, 0.9>", 16);
+  text.replace(0, text.find('\n') + 1, cameraText(moved));
+  b.folder.write("a.scene", text);
+  const std::string more = std::to_string(samples + 8);
+  const auto render = [&](const std::string& picture) {
+    const Run run = runVestige({"render", b.file, "-o", b.folder / picture, "--spp", more,
+                                "--progress", "none", "--checkpoint", kept});
+    INFO(run.err);
+    REQUIRE(run.exit == 0);
+  };
+  render("on.exr");
+  std::filesystem::remove(kept);
+  render("once.exr");
+  std::string error;
+  CHECK(readImage(b.folder / "on.exr", error).pixels ==
+        readImage(b.folder / "once.exr", error).pixels);
+}
+
+TEST_CASE("without a whole picture nothing is kept", "[window][preview]") {
+  Bench b("camera pinhole { location <0, 1, -4> look_at }\n");  // broken
+  b.preview->keep(b.folder / "a.checkpoint");
+  std::string news;
+  REQUIRE(b.comes([&] { return !(news = b.preview->news()).empty(); }));
+  CHECK(news == "there is no whole picture to keep yet");
+  CHECK_FALSE(std::filesystem::exists(b.folder / "a.checkpoint"));
 }
 
 TEST_CASE("a region is known by its shares of the film", "[window][preview]") {
