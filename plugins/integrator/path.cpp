@@ -188,7 +188,7 @@ class PathIntegrator final : public Integrator {
     return sum / Real(path.rays);
   }
 
-  /// The other way on, where ground glass is met from inside: one of thirty rays is reflected
+  /// The other way on, where ground glass is met from inside: one ray of 25 is reflected
   /// there, and may bring all of a lamp. Empty: there are not just two ways. Whether there are
   /// depends on what moved `way`, not on which of the two it is.
   static std::optional<Way> otherWay(const Vertex& v, const Way& way) noexcept {
