@@ -203,6 +203,11 @@ void World::commit(const std::shared_ptr<const Body>& before) {
 
 std::shared_ptr<const World::Body> World::body() const noexcept { return impl_->body; }
 std::size_t World::dropped() const noexcept { return impl_->body ? impl_->body->dropped : 0; }
+std::vector<Placement> World::placements() const {
+  std::vector<Placement> placements;
+  for (const Item& item : impl_->body->items) placements.push_back(item.placement);
+  return placements;
+}
 std::size_t World::triangles() const noexcept { return impl_->body ? impl_->body->triangles : 0; }
 Bounds World::bounds() const noexcept { return impl_->body ? impl_->body->bounds : Bounds{}; }
 std::span<const Patch> World::patches() const noexcept {

@@ -64,7 +64,8 @@ class World {
   SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept;
   Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept;
 
-  std::size_t triangles() const noexcept;  ///< without instances
+  std::vector<Placement> placements() const;  ///< after commit(), without their lights
+  std::size_t triangles() const noexcept;     ///< without instances
   static std::string embreeVersion();
 
  private:
