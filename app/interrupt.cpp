@@ -17,7 +17,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not 
 /// Only what POSIX allows inside a handler; whoever was interrupted finds his errno as it was.
 void onSignal(int) {
   if (interrupted.exchange(true)) _exit(kInterrupted);
-  static constexpr char kText[] = "\nstopping after the current tiles; once more stops at once\n";
+  static constexpr char kText[] = "\nstopping after the current samples; once more stops at once\n";
   const int before = errno;
   [[maybe_unused]] ssize_t written = 0;
   if (isatty(STDERR_FILENO)) written = write(STDERR_FILENO, kText, sizeof kText - 1);

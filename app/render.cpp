@@ -36,10 +36,18 @@ void checkRequest(const RenderRequest& r, const Registry& registry) {
         kCommandLineWrong,
         fmt::format("--checkpoint does not go with {}: which pixels are quiet is not kept",
                     r.render.adaptive ? "--adaptive" : "--noise"));
-  for (const std::string& file : r.output.files)
-    if (file == r.checkpoint)
+  std::vector<std::string> written = r.output.files;
+  written.push_back(r.statsFile);
+  for (const auto& [name, value] : r.build.settings)
+    if (name == "save_solution") written.push_back(value.text);
+  std::error_code ignored;
+  const auto whole = [&](const std::string& f) {
+    return std::filesystem::weakly_canonical(f, ignored);
+  };
+  for (const std::string& file : written)
+    if (!file.empty() && whole(file) == whole(r.checkpoint))
       throw Failure(kCommandLineWrong,
-                    fmt::format("'{}' cannot be both the picture and the checkpoint", file));
+                    fmt::format("'{}' cannot be the checkpoint and something else", file));
   checkWritable(r.checkpoint);
 }
 

@@ -205,7 +205,7 @@ void Window::drawPixelPanel() {
 /// Of a radiosity solution, the element under the cursor. Its flux is no quantity of a pixel, so
 /// a path is traced for it.
 void Window::drawElement(int x, int y) {
-  if (x != hoverX_ || y != hoverY_ || snapshot_ != hoverOver_) {
+  if (x != hoverX_ || y != hoverY_ || snapshot_ != hoverOver_.lock()) {
     hoverX_ = x, hoverY_ = y, hoverOver_ = snapshot_;
     preview_->hover(x, y);
   }

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <new>
 #include <sstream>
 #include <string_view>
@@ -23,6 +26,17 @@ constexpr double kStarving = 0.5;            ///< seconds without any picture
 constexpr int kFewPixels = 96 * 96;          ///< no coarser picture is needed of so few
 constexpr int kMostInPass = 4;               ///< samples a pixel between two pictures
 constexpr int kFirstParticles = 20000, kMoreParticles = 4;  ///< then so many times as many
+
+/// As it is to be typed.
+std::string shellWord(const std::string& text) {
+  const bool isPlain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) || std::strchr("-_./=:,+@", c);
+  });
+  if (isPlain && !text.empty()) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
 
 std::string firstError(const Diagnostics& diagnostics) {
   for (const Diagnostic& d : diagnostics.list())
@@ -143,8 +157,8 @@ void Preview::work() {
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return quits_ || isFresh_ || clickedAt_ || hoveredAt_; });
-      if (quits_) return;
       wish = wish_, isFresh = isFresh_;
+      if (quits_ && keepAs_.empty()) return;
       isFresh_ = cancel_ = false;
     }
     try {
@@ -161,6 +175,7 @@ void Preview::work() {
 
 void Preview::doWish(const Wish& wish, bool isFresh) {
   keepIfAsked(wish);
+  if (quits_) return;
   if (isFresh && wish.isPaused) setPhase("paused");
   if (isFresh && !wish.isPaused) {
     wished_ = secondsNow(), hasFirst_ = false;
@@ -250,6 +265,7 @@ bool Preview::renew(const Wish& wish) {
   }
   done_ = wish;
   if (!diagnostics.hasErrors()) return true;
+  done_.view = done_.way = -1;  // what is there is not what was wished
   fail(firstError(diagnostics));
   return false;
 }
@@ -393,27 +409,13 @@ void Preview::keepIfAsked(const Wish& wish) {
   }
   if (file.empty()) return;
   std::string said = "there is no whole picture to keep yet";
-  if (film_ && film_->minSamples() > 0 && wish.isSamePicture(filmWish_)) {
-    // The camera in hand is that of the text into which it was pasted.
-    SceneDesc text = open_->loaded.text.scene;
-    if (wish.camera)
-      for (auto b = text.blocks.rbegin(); b != text.blocks.rend(); ++b)
-        if (b->kind == "camera") {
-          *b = *wish.camera;
-          break;
-        }
-    BuildOptions build = wish.build;
-    build.files = &open_->looked;
-    RenderOptions render = render_;
-    render.samples = wish.samples;
-    CheckpointFile checkpoint(
-        file, checkpointLabel(text, open_->scene(), open_->registry, build, render));
-    RenderResult soFar;
-    soFar.seconds = effort_.seconds, soFar.counters = effort_.counters;
-    said = howToGoOn(wish, file);
-    checkpoint.save(withoutAovs(*film_), open_->scene(), soFar,
-                    [&](const std::string& sentence) { said = sentence; });
-  }
+  if (film_ && film_->minSamples() > 0 && wish.isSamePicture(filmWish_)) try {
+      said = keepFilm(file);
+    } catch (const std::bad_alloc&) {
+      said = "out of memory: nothing was kept";
+    } catch (const std::exception& e) {
+      said = e.what();
+    }
   {
     const std::lock_guard lock(mutex_);
     news_ = said;
@@ -421,10 +423,42 @@ void Preview::keepIfAsked(const Wish& wish) {
   wake_();
 }
 
+/// What came of it.
+std::string Preview::keepFilm(const std::string& file) {
+  // The camera in hand is that of the text into which it was pasted.
+  SceneDesc text = open_->loaded.text.scene;
+  const auto last = std::find_if(text.blocks.rbegin(), text.blocks.rend(),
+                                 [](const Block& b) { return b.kind == "camera"; });
+  if (filmWish_.camera && last != text.blocks.rend()) *last = *filmWish_.camera;
+  BuildOptions build = filmWish_.build;
+  build.files = &open_->looked;
+  RenderOptions render = render_;
+  render.samples = filmWish_.samples;
+  CheckpointFile checkpoint(file,
+                            checkpointLabel(text, open_->scene(), open_->registry, build, render));
+  const Film bare = withoutAovs(*film_);
+  // One of another render, or of more samples, is not lost.
+  Film older = bare;
+  CheckpointFile(checkpoint).load(older, int(bare.minSamples()));
+  RenderResult soFar;
+  soFar.seconds = effort_.seconds, soFar.counters = effort_.counters;
+  std::string said = howToGoOn(file);
+  checkpoint.save(bare, open_->scene(), soFar, [&](const std::string& why) { said = why; });
+  return said;
+}
+
 /// With the options that the film was made with.
-std::string Preview::howToGoOn(const Wish& wish, const std::string& file) const {
+std::string Preview::howToGoOn(const std::string& file) const {
+  const Wish& wish = filmWish_;
   const FilmShape scenes = filmShape(open_->scene(), 0, 0, nullptr);
   std::string options;
+  const auto add = [&](const char* option, const std::vector<std::string>& values) {
+    for (const std::string& v : values) options += fmt::format(" {} {}", option, shellWord(v));
+  };
+  add("-D", input_.definitions);
+  add("-I", input_.includePaths);
+  add("--plugin-path", input_.pluginPaths);
+  if (render_.seed != 0) options += fmt::format(" --seed {}", render_.seed);
   if (film_->width() != scenes.width || film_->height() != scenes.height)
     options += fmt::format(" --width {} --height {}", film_->width(), film_->height());
   if (wish.region) {
@@ -433,8 +467,14 @@ std::string Preview::howToGoOn(const Wish& wish, const std::string& file) const 
   }
   if (!wish.build.integrator.empty()) options += " --integrator " + wish.build.integrator;
   if (!wish.build.footprint.empty()) options += " --footprint " + wish.build.footprint;
-  return fmt::format("kept {}: vestige render {}{} --checkpoint {} --spp ... goes on{}",
-                     count(film_->minSamples(), "sample"), input_.file, options, file,
+  const bool isFixed = goesByDeclaredSamples(open_->loaded.text.scene, wish.build);
+  const std::string samples =
+      isFixed
+          ? std::to_string(wantedSamples(open_->scene().integrator(), {.samples = wish.samples}))
+          : "...";
+  return fmt::format("kept {}: vestige render {}{} --checkpoint {} --spp {} goes on{}",
+                     count(film_->minSamples(), "sample"), shellWord(input_.file), options,
+                     shellWord(file), samples,
                      wish.camera ? ", with this camera in the text (C)" : "");
 }
 

@@ -148,7 +148,8 @@ class Preview {
   Film filmFor(const Wish& wish, int scale) const;
   void publish(const Wish& wish, const Film& film, int scale, double seconds);
   void keepIfAsked(const Wish& wish);
-  std::string howToGoOn(const Wish& wish, const std::string& file) const;
+  std::string keepFilm(const std::string& file);
+  std::string howToGoOn(const std::string& file) const;
   void answerRequests(const Wish& wish);
   std::shared_ptr<const Inspection> answer(const Wish& wish, const Request& request) const;
   void fail(const std::string& sentence);
@@ -161,7 +162,8 @@ class Preview {
   mutable std::mutex mutex_;  ///< over everything down to the next line
   std::condition_variable changed_;
   Wish wish_;
-  bool isFresh_ = true, quits_ = false;
+  bool isFresh_ = true;
+  std::atomic<bool> quits_ = false;
   std::optional<Request> clickedAt_, hoveredAt_;  ///< a newer question takes an older one's place
   std::string keepAs_;                            ///< a file; "": nobody asked
   std::string news_;

@@ -154,11 +154,11 @@ bool Window::needsFrame() {
   if (isDirty_) return true;
   const auto fresh = preview_ ? preview_->snapshot() : nullptr;
   const bool isNew = fresh != snapshot_;
-  if (preview_ && (preview_->inspection() != inspection_ || preview_->hovered() != hovered_))
-    return true;
+  if (preview_ && preview_->inspection() != inspection_) return true;
   // The first picture of something else is waited for.
   if (isNew && (!snapshot_ || !fresh->wish.isSamePicture(snapshot_->wish))) return true;
-  return (isNew || preview_) && glfwGetTime() - lastFrame_ > (isNew ? kFrameEvery : 0.5);
+  const bool isSoon = isNew || (preview_ && preview_->hovered() != hovered_);
+  return preview_ && glfwGetTime() - lastFrame_ > (isSoon ? kFrameEvery : 0.5);
 }
 
 void Window::update() {

@@ -136,8 +136,8 @@ class Window {
 
   // The inspector
   std::shared_ptr<const Inspection> inspection_, hovered_;
-  int hoverX_ = -1, hoverY_ = -1;              ///< what was asked about last
-  std::shared_ptr<const Snapshot> hoverOver_;  ///< ... and in which picture
+  int hoverX_ = -1, hoverY_ = -1;            ///< what was asked about last
+  std::weak_ptr<const Snapshot> hoverOver_;  ///< ... and in which picture
   Reckoning reckoning_;
   int boundChoice_ = 0;
   int vertex_ = 0;         ///< whose texture is shown

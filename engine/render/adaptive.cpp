@@ -120,7 +120,7 @@ void Adaptive::closePaid() {
     return cost > budget_;
   };
   double paid = 0;
-  if (largest > 0) {
+  if (largest > 0 && std::isfinite(largest)) {
     double dear = samples_ / largest;
     while (!isTooDear(dear)) paid = dear, dear *= 2;
     for (int i = 0; i < kHalvings; ++i) {

@@ -203,17 +203,17 @@ void add(Counters& sum, const Counters& c) {
 
 int wantedSamples(const Integrator& integrator, const RenderOptions& options) {
   if (options.samples > 0) return options.samples;
-  if (options.seconds > 0) return 0;  // until time is up
+  if (options.seconds > 0 && !options.adaptive) return 0;  // until time is up
   if (options.noise > 0) return kMostSamples;
   return integrator.samples() > 0 ? integrator.samples() : kDefaultSamples;
 }
 
 namespace {
 
-/// What an adaptive render is to reach; nullopt: all pixels get the same.
-std::optional<Adaptive::Goal> goalOf(const Integrator& integrator, RenderOptions options) {
+/// What an adaptive render is to reach; nullopt: all pixels get the same. A time that is up ends it
+/// earlier.
+std::optional<Adaptive::Goal> goalOf(const Integrator& integrator, const RenderOptions& options) {
   if (options.noise > 0) return Adaptive::Goal{.noise = options.noise};
-  options.seconds = 0;
   const int mean = wantedSamples(integrator, options);
   if (!options.adaptive || mean < kLeastShared) return std::nullopt;
   return Adaptive::Goal{.samples = double(mean)};

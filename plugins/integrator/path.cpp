@@ -189,8 +189,8 @@ class PathIntegrator final : public Integrator {
   }
 
   /// The other way on, where ground glass is met from inside: one ray of 25 is reflected
-  /// there, and may bring all of a lamp. Empty: there are not just two ways. Whether there are
-  /// depends on what moved `way`, not on which of the two it is.
+  /// there, and may bring all of a lamp. Empty: there are not just these two ways. Whether there
+  /// are depends on what moved `way`, not on which of the two it is.
   static std::optional<Way> otherWay(const Vertex& v, const Way& way) noexcept {
     if (!v.x.point.inside || !way.scatter || way.scatter->local.specular) return std::nullopt;
     const ScatterSample& drawn = way.scatter->local;
@@ -202,6 +202,7 @@ class PathIntegrator final : public Integrator {
       if (!other.scatter) return std::nullopt;
       const ScatterSample& found = other.scatter->local;
       if (found.lobe == drawn.lobe) continue;
+      if (found.specular || (found.toNext.z > 0) == (drawn.toNext.z > 0)) return std::nullopt;
       const bool areAll = std::abs(drawn.lobeChance + found.lobeChance - 1) < Real(1e-4);
       return areAll ? std::optional(other) : std::nullopt;
     }

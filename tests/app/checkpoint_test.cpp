@@ -148,6 +148,7 @@ TEST_CASE("a checkpoint of another render is refused, and stays", "[app][checkpo
   refuses({"--spp", "1"}, "has up to 2 samples a pixel already, more than the 1 that are wanted");
   refuses({"--noise", "0.1"}, "--checkpoint does not go with --noise");
   refuses({"--adaptive"}, "--checkpoint does not go with --adaptive");
+  refuses({"--stats", kept}, "cannot be the checkpoint and something else");
 
   folder.write("a.obj", mesh + "f 3 2 1\n");
   refuses({}, "the file 'a.obj' has changed");

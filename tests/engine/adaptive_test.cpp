@@ -301,6 +301,19 @@ TEST_CASE("a block waits for a neighbour that is far from quiet", "[adaptive]") 
   CHECK(adaptive.isDone());
 }
 
+TEST_CASE("a picture that is black on average, and negative somewhere, ends too", "[adaptive]") {
+  Film film(16, 16, {0, 0, 16, 16}, {});
+  Counters counters;
+  Adaptive adaptive(film, {.samples = 64});
+  for (int n = 1; n <= 1024 && !adaptive.isDone(); n *= 2) {
+    while (int(film.minSamples()) < n)
+      for (int i = 0; i < 256; ++i)
+        film.add(i % 16, i / 16, grey(i == 0 ? -Real(n) : Real(0)), {}, counters);
+    adaptive.judge(film, n);
+  }
+  CHECK(adaptive.isDone());
+}
+
 TEST_CASE("a black picture is quiet", "[adaptive]") {
   Film film(8, 8, {0, 0, 8, 8}, {});
   Counters counters;

@@ -353,6 +353,24 @@ TEST_CASE("`vestige render` goes on from a kept picture, with the camera in hand
         readImage(b.folder / "once.exr", error).pixels);
 }
 
+TEST_CASE("a picture is kept though the window closes, and not in place of something else",
+          "[window][preview]") {
+  Bench b(scene("rgb 0.5", 1 << 20));
+  REQUIRE(b.comes([&] {
+    const auto s = b.preview->snapshot();
+    return s && s->samples >= 4;
+  }));
+  const std::string other = b.folder.write("b.checkpoint", "something else");
+  b.preview->keep(other);
+  std::string news;
+  REQUIRE(b.comes([&] { return !(news = b.preview->news()).empty(); }));
+  CHECK_THAT(news, containsText("is no checkpoint"));
+  CHECK(std::filesystem::file_size(other) == 14);
+  b.preview->keep(b.folder / "a.checkpoint");
+  b.preview.reset();
+  CHECK(std::filesystem::exists(b.folder / "a.checkpoint"));
+}
+
 TEST_CASE("without a whole picture nothing is kept", "[window][preview]") {
   Bench b("camera pinhole { location <0, 1, -4> look_at }\n");  // broken
   b.preview->keep(b.folder / "a.checkpoint");

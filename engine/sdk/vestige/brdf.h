@@ -30,8 +30,8 @@ struct ScatterPoint {
   Inputs inputs;  ///< in the order of the schema
 };
 
-/// The numbers a direction is drawn with: `lobe` picks among alternatives (it has no derivative),
-/// `u` moves the direction smoothly.
+/// The numbers a direction is drawn with: `lobe` picks among alternatives and does nothing else (it
+/// has no derivative), `u` moves the direction smoothly.
 struct ScatterNumbers {
   Real lobe;  ///< [0,1)
   Vec2 u;     ///< [0,1)^2
