@@ -46,7 +46,7 @@ Event makeEvent(const Brdf& brdf, const InputBuffer& inputs, Vec3 arriving, std:
     e.surface.dNdu = Real(0.3) * f.s, e.surface.dNdv = Real(0.2) * f.t;
     e.x.brdf = &brdf, e.x.toPrev = -arriving;
     e.x.frame = f, e.x.geometricNormal = n;
-    e.x.point = {f.toLocal(e.x.toPrev), false, Inputs(inputs.data())};
+    e.x.point = {.toPrev = f.toLocal(e.x.toPrev), .inputs = Inputs(inputs.data())};
     e.numbers = {s.number(5), s.pair(6)};
     if (const auto drawn = drawScatter(e.x, e.numbers)) {
       e.drawn = *drawn;

@@ -8,7 +8,7 @@ namespace {
 /// All that was found, so that one finding can speak about another.
 struct BrdfFindings {
   DensityFindings density;
-  Finding ownPdf, lobePart, weight, energy, matt, oneSide, across, snell;
+  Finding ownPdf, lobePart, weight, energy, diffuse, oneSide, across, snell;
   Finding area, du, dPrev, logGradient, fuzz, threads;
 };
 
@@ -18,7 +18,7 @@ BrdfFindings findings(const BrdfCases& cases, const Schema* schema, const Effort
           .lobePart = lobesArePartsOfPdf(cases, e),
           .weight = weightIsTheQuotient(cases, e),
           .energy = noEnergyIsGained(cases, e),
-          .matt = mattIsNoMoreThanThereIs(cases, e),
+          .diffuse = diffusePartIsNoMoreThanThereIs(cases, e),
           .oneSide = isReciprocal(cases, e, false),
           .across = isReciprocal(cases, e, true),
           .snell = etaScaleFollowsSnell(cases, e),
@@ -34,23 +34,25 @@ BrdfFindings findings(const BrdfCases& cases, const Schema* schema, const Effort
 std::string culpritOfMap(const BrdfFindings& f) {
   const bool density = f.density.distribution.passed() && f.density.mass.passed();
   if (density) return "";
-  if (!f.ownPdf.passed()) return "pdf()";  // the sample's own pdf disagrees as well
-  if (!f.du.passed()) return "sample()";   // neither pdf() nor the derivative are of this map
-  return "pdf()";
+  if (!f.ownPdf.passed()) return "evaluate().pdf";  // the sample's own pdf disagrees as well
+  if (!f.du.passed())
+    return "sample()";  // neither evaluate().pdf nor the derivative are of this map
+  return "evaluate().pdf";
 }
 
 /// The lobe's density or the derivative: the differences decide.
 std::string culpritOfArea(const BrdfFindings& f) {
   if (!f.du.passed()) return f.du.method;
   const bool density = f.density.distribution.passed() && f.density.mass.passed();
-  if (!density && f.ownPdf.passed()) return "pdf()";  // both of the sample's densities follow it
+  if (!density && f.ownPdf.passed())
+    return "evaluate().pdf";  // both of the sample's densities follow it
   return "sample().lobePdf";
 }
 
 std::string culpritOfWeight(const BrdfFindings& f, const std::string& map) {
   if (!map.empty()) return map;
   if (!f.ownPdf.passed()) return f.ownPdf.method;
-  return f.oneSide.passed() ? "sample().weight" : "eval()";
+  return f.oneSide.passed() ? "sample().weight" : "evaluate().fCos";
 }
 
 }  // namespace
@@ -75,7 +77,7 @@ Judgement judgeBrdf(const BrdfCases& cases, const Schema* schema, const Effort& 
                 verdictOf(f.oneSide),
                 verdictOf(f.across),
                 verdictOf(f.snell),
-                verdictOf(f.matt),
+                verdictOf(f.diffuse),
                 verdictOf(f.logGradient)};
   j.timings = timings(cases);
   return j;

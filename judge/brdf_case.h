@@ -15,15 +15,26 @@ struct BrdfCase {
   std::string plugin, settings;  ///< settings as in a scene: "{ alpha 0.3 ior 1.5 }"
   std::shared_ptr<Brdf> brdf;
   InputBuffer inputs;
-  bool hasInside;  ///< it knows an inside: `inside` makes a difference
+  int refractiveIndex = -1;  ///< which input is that of the inside; -1: none is
+  Real outside = 1;          ///< refractive index there
+  bool hasInside = false;    ///< whether `behind` makes a difference
   /// Whether its lobes through the surface are reciprocal. That of phong cannot be: a lobe about
   /// the refracted direction has no mirror image, it widens where the light narrows.
   bool isReciprocalAcross = true;
 
-  ScatterPoint at(Vec3 toPrev, bool inside) const {
-    return {toPrev, inside, Inputs(inputs.data())};
+  ScatterPoint at(Vec3 toPrev, bool behind) const {
+    const Real inside =
+        refractiveIndex < 0 ? Real(1) : std::max(inputs[refractiveIndex].v[0], Real(0.1));
+    const Real around = refractiveIndex < 0 ? Real(1) : outside;
+    return {toPrev, behind, behind ? inside : around, behind ? around : inside,
+            Inputs(inputs.data())};
   }
-  std::string title() const { return "brdf " + plugin + " " + settings; }
+  std::string title() const {
+    std::ostringstream text;
+    text << "brdf " << plugin << " " << settings;
+    if (outside != 1) text << " in a medium of index " << outside;
+    return text.str();
+  }
 };
 
 /// A toPrev of given height above the surface, at a random azimuth.
@@ -134,12 +145,18 @@ inline std::vector<Settings> settingsFor(const Schema& schema, int randomSets, u
 }
 
 inline BrdfCase brdfCase(const Plugin& plugin, const Settings& s) {
-  return {plugin.name,
-          textOf(s),
-          make<Brdf>(plugin),
-          inputsFor(*plugin.schema, s),
-          plugin.schema->find("ior") != nullptr,
-          plugin.name != "phong"};
+  const std::vector<Parameter>& rows = plugin.schema->inputs;
+  const auto index = std::find_if(rows.begin(), rows.end(),
+                                  [](const Parameter& row) { return row.isRefractiveIndex; });
+  BrdfCase c;
+  c.plugin = plugin.name;
+  c.settings = textOf(s);
+  c.brdf = make<Brdf>(plugin);
+  c.inputs = inputsFor(*plugin.schema, s);
+  if (index != rows.end()) c.refractiveIndex = int(index - rows.begin());
+  c.hasInside = index != rows.end() || !plugin.schema->params.empty();
+  c.isReciprocalAcross = plugin.name != "phong";
+  return c;
 }
 
 /// A plugin with all its parameter sets.
@@ -147,6 +164,8 @@ inline std::vector<BrdfCase> brdfCases(const Plugin& plugin, int randomSets, uns
   std::vector<BrdfCase> cases;
   for (const Settings& s : settingsFor(*plugin.schema, randomSets, seed))
     cases.push_back(brdfCase(plugin, s));
+  for (std::size_t i = 1; i < cases.size(); i += 3)  // some of them under water
+    if (cases[i].refractiveIndex >= 0) cases[i].outside = Real(1.33);
   return cases;
 }
 

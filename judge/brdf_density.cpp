@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sample() against pdf().
+// sample() against evaluate().pdf.
 #include "judge/brdf_tests.h"
 #include "judge/statistics.h"
 
@@ -30,8 +30,8 @@ bool isTooNarrow(const Brdf& brdf, const ScatterPoint& p, Random& r) {
   return false;
 }
 
-/// What rounding of toNext.z does to pdf() near the normal, where a step of a float is no longer
-/// small beside the solid angle of a lobe: 1 / pdf.
+/// What rounding of toNext.z does to evaluate().pdf near the normal, where a step of a float is no
+/// longer small beside the solid angle of a lobe: 1 / pdf.
 double rounding(const Brdf& brdf, const ScatterPoint& p, const std::vector<Vec3>& samples) {
   const std::size_t n = std::min<std::size_t>(samples.size(), 100);
   double sum = 0;
@@ -60,33 +60,33 @@ Goodness goodness(const Brdf& brdf, const ScatterPoint& p, const Effort& effort,
 
 DensityFindings samplesFollowPdf(const BrdfCases& cases, const Effort& effort) {
   Random r(effort.seed + 1);
-  DensityFindings f{{"samples are distributed as pdf() says", "pdf()"},
-                    {"pdf() integrates to 1 - P(nullopt or specular)", "pdf()"}};
+  DensityFindings f{{"samples are distributed as evaluate().pdf says", "evaluate().pdf"},
+                    {"evaluate().pdf integrates to 1 - P(nullopt or specular)", "evaluate().pdf"}};
   const double level = sidakLevel(effort.falseAlarm, cases.size() * 6);
   for (const BrdfCase& c : cases)
     for (const Real height : {Real(1), Real(0.7), Real(0.25), Real(0.02)})
-      for (const bool inside : {false, true}) {
-        if (inside && !c.hasInside) continue;
-        const ScatterPoint p = c.at(atHeight(height, r), inside);
+      for (const bool behind : {false, true}) {
+        if (behind && !c.hasInside) continue;
+        const ScatterPoint p = c.at(atHeight(height, r), behind);
         if (isTooNarrow(*c.brdf, p, r)) continue;
         const Goodness g = goodness(*c.brdf, p, effort, r);
         const double ratio = relative(g.mass, g.drawn) > 0.02 ? g.drawn / g.mass : g.ratio;
         f.distribution.worst.see(std::log(std::max(g.pValue, 1e-300)) / std::log(level), [&] {
           std::ostringstream text;
           text.precision(3);
-          text << "sample() lands " << ratio << " times as often as pdf() says (p-value "
+          text << "sample() lands " << ratio << " times as often as evaluate().pdf says (p-value "
                << g.pValue << ")";
           return eventLine(c, p, {}, text.str());
         });
         f.mass.worst.see(std::abs(g.missing) / 5, [&] {
-          return eventLine(c, p, {}, told("the integral of pdf() is", g.mass, g.drawn));
+          return eventLine(c, p, {}, told("the integral of evaluate().pdf is", g.mass, g.drawn));
         });
       }
   return f;
 }
 
 Finding samplesKnowTheirPdf(const BrdfCases& cases, const Effort& effort) {
-  Finding f{"a sample's pdf is what pdf() says", "sample().pdf"};
+  Finding f{"a sample's pdf is what evaluate().pdf says", "sample().pdf"};
   forEvents(
       cases, effort.events(),
       [&](const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Random&) {
@@ -95,7 +95,8 @@ Finding samplesKnowTheirPdf(const BrdfCases& cases, const Effort& effort) {
         const double pdf = double(c.brdf->pdf(p, s->toNext));
         const double allowed = pdfTolerance(c, p, s->toNext);
         f.worst.see(relative(double(s->pdf), pdf) / allowed, [&] {
-          return eventLine(c, p, n, told("sample().pdf is", double(s->pdf), pdf) + " as pdf()");
+          return eventLine(c, p, n,
+                           told("sample().pdf is", double(s->pdf), pdf) + " as evaluate().pdf");
         });
       },
       effort.seed);

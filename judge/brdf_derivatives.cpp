@@ -91,7 +91,7 @@ Finding dPrevIsTheDerivative(const BrdfCases& cases, const Effort& effort) {
     if (!s || p.toPrev.z < Real(0.05)) return;
     const ScatterJacobian j = c.brdf->sampleDerivatives(p, n);
     const Vec3 along = tangent(p.toPrev, 2 * double(kPi * r.number()));
-    const auto moved = [&](double h) { return c.at(turned(p.toPrev, along, h), p.inside); };
+    const auto moved = [&](double h) { return c.at(turned(p.toPrev, along, h), p.behind); };
     const auto asIs = [&](double h) { return within(c, moved(h), n, s->lobe); };
     const auto frame = lobeFrame(*c.brdf, p, n.lobe);
     const auto unspun = [&](double h) -> std::optional<Vec3> {
@@ -137,7 +137,7 @@ Finding logGradientIsTheDerivative(const BrdfCases& cases, const Effort& effort)
     if (r.number() < Real(0.5))
       if (const auto s = c.brdf->sample(p, n)) toNext = s->toNext;
     const LogGradient g = c.brdf->logGradient(p, toNext);
-    if (!(luminance(c.brdf->eval(p, toNext)) > 0)) {
+    if (!(luminance(c.brdf->f(p, toNext)) > 0)) {
       const double size = sizeOf(g.dPrev) + sizeOf(g.dNext);
       f.worst.see(size > 0 ? 2 : 0,
                   [&] { return eventLine(c, p, n, "f is zero, but logGradient() is not"); });
@@ -149,9 +149,9 @@ Finding logGradientIsTheDerivative(const BrdfCases& cases, const Effort& effort)
       const Vec3 along = tangent(from, 2 * double(kPi * r.number()));
       const auto logF = [&](double h) -> std::optional<Real> {
         const Vec3 d = turned(from, along, h);
-        const ScatterPoint q = next ? p : c.at(d, p.inside);
+        const ScatterPoint q = next ? p : c.at(d, p.behind);
         if (q.toPrev.z <= 0) return std::nullopt;
-        const Real f = luminance(c.brdf->eval(q, next ? d : toNext));
+        const Real f = luminance(c.brdf->f(q, next ? d : toNext));
         return f > Real(1e-25) ? std::optional(std::log(f)) : std::nullopt;
       };
       const double found = double(dot(next ? g.dNext : g.dPrev, along));
@@ -160,9 +160,7 @@ Finding logGradientIsTheDerivative(const BrdfCases& cases, const Effort& effort)
       const double width = 1 / (1 + sharp + std::abs(found) + 1 / sizeOf(from.z));
       const double step = (kDouble ? 1e-2 : 0.1) * width;
       const double allowed = kMapTolerance / width;
-      const auto value = [&](const ScatterPoint& q, Vec3 d) {
-        return luminance(c.brdf->eval(q, d));
-      };
+      const auto value = [&](const ScatterPoint& q, Vec3 d) { return luminance(c.brdf->f(q, d)); };
       const double noise = 2 + wobble(p, toNext, value) / kEpsilon;
       ++f.asked;
       const auto expected = trustedDifference(logF, step, allowed, noise);

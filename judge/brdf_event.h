@@ -20,8 +20,8 @@ double wobble(const ScatterPoint& p, Vec3 toNext, const F& f) {
   double most = 0;
   for (int i = 0; i < 4; ++i) {
     const double angle = i * double(kPi) / 2;
-    const ScatterPoint q = {turned(p.toPrev, tangent(p.toPrev, angle), kRounding), p.inside,
-                            p.inputs};
+    const ScatterPoint q =
+        differences::facing(p, turned(p.toPrev, tangent(p.toPrev, angle), kRounding));
     const Vec3 d = turned(toNext, tangent(toNext, angle), kRounding);
     most = std::max(most, std::abs(double(f(q, toNext)) - value) / value);
     most = std::max(most, std::abs(double(f(p, d)) - value) / value);
@@ -33,7 +33,7 @@ inline double pdfTolerance(const BrdfCase& c, const ScatterPoint& p, Vec3 toNext
   return (kDouble ? 1e-9 : 1e-3) + 4 * wobble(p, toNext, pdf);
 }
 inline double evalTolerance(const BrdfCase& c, const ScatterPoint& p, Vec3 toNext) {
-  const auto f = [&](const ScatterPoint& q, Vec3 d) { return maxComponent(c.brdf->eval(q, d)); };
+  const auto f = [&](const ScatterPoint& q, Vec3 d) { return maxComponent(c.brdf->f(q, d)); };
   return (kDouble ? 1e-9 : 1e-3) + 4 * wobble(p, toNext, f);
 }
 
@@ -54,12 +54,12 @@ inline Event eventLine(const BrdfCase& c, const ScatterPoint& p, ScatterNumbers 
                        const std::string& what) {
   std::ostringstream text;
   text.precision(9);
-  text << c.title() << "  toPrev " << p.toPrev << (p.inside ? " inside" : " outside") << "  lobe "
+  text << c.title() << "  toPrev " << p.toPrev << (p.behind ? " inside" : " outside") << "  lobe "
        << n.lobe << "  u <" << n.u.x << ", " << n.u.y << ">: " << what;
   std::ostringstream where;
   where.precision(3);
   where << "with " << c.settings << " and toPrev " << std::acos(double(p.toPrev.z)) * 180 / M_PI
-        << " degrees from the normal" << (p.inside ? " inside" : "");
+        << " degrees from the normal" << (p.behind ? " inside" : "");
   return {text.str(), where.str(), what};
 }
 

@@ -31,8 +31,9 @@ std::optional<Broken> brokenPromise(const ScatterSample& s) {
 }
 
 std::optional<Broken> brokenPromise(const BrdfCase& c, const ScatterPoint& p, Vec3 toNext) {
-  if (!isColour(c.brdf->eval(p, toNext))) return Broken{"eval()", "f is no colour"};
-  if (!isDensity(c.brdf->pdf(p, toNext))) return Broken{"pdf()", "pdf() is no density"};
+  if (!isColour(c.brdf->f(p, toNext))) return Broken{"evaluate().fCos", "f is no colour"};
+  if (!isDensity(c.brdf->pdf(p, toNext)))
+    return Broken{"evaluate().pdf", "evaluate().pdf is no density"};
   const LogGradient g = c.brdf->logGradient(p, toNext);
   if (!isFinite(g.dPrev) || !isFinite(g.dNext))
     return Broken{"logGradient()", "logGradient() is not finite"};

@@ -19,7 +19,8 @@ Picture density(const BrdfCase& c, const ScatterPoint& p, const Effort& effort) 
   const Grid told = sphereOf([&](Vec3 d) { return c.brdf->pdf(p, d); });
   const double white = std::max(largest(told), 1e-30);
   return {"density.png", greyPanels({seen, told}, white),
-          "where " + c.title() + " sends toNext: left by sample(), right by pdf(); white is " +
+          "where " + c.title() +
+              " sends toNext: left by sample(), right by evaluate().pdf; white is " +
               withUnit(white, "/sr") +
               ". Across: azimuth, -180 to 180 degrees, toPrev at 0 in the middle; up: toNext.z, -1 "
               "to 1, the surface at half the height."};

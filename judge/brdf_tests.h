@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every BRDF has to keep of the contract in brdf.h, one function a promise.
 //
-// sample(), pdf() and sampleDerivatives() are three independent statements about one map:
+// sample(), evaluate().pdf and sampleDerivatives() are three independent statements about one map:
 //     sample and pdf           chi-square
 //     pdf and derivative       |du.c0 x du.c1| lobePdf = 1
 //     sample and derivative    finite differences
-// A fault in one of them breaks two of these tests, which names the culprit. eval() is held by its
-// quotient with pdf(), by energy and by reciprocity; logGradient() by differences of eval().
+// A fault in one of them breaks two of these tests, which names the culprit. evaluate() is held by
+// its quotient with evaluate().pdf, by energy and by reciprocity; logGradient() by differences of
+// evaluate().
 #pragma once
 #include "judge/brdf_event.h"
 #include "judge/verdict.h"
@@ -17,8 +18,8 @@ using BrdfCases = std::vector<BrdfCase>;
 
 // brdf_density.cpp
 struct DensityFindings {
-  Finding distribution;  ///< samples fall where pdf() says: chi-square
-  Finding mass;          ///< pdf() integrates to 1 - P(nullopt or specular)
+  Finding distribution;  ///< samples fall where evaluate().pdf says: chi-square
+  Finding mass;          ///< evaluate().pdf integrates to 1 - P(nullopt or specular)
 };
 DensityFindings samplesFollowPdf(const BrdfCases& cases, const Effort& effort);
 Finding samplesKnowTheirPdf(const BrdfCases& cases, const Effort& effort);
@@ -27,7 +28,7 @@ Finding lobesArePartsOfPdf(const BrdfCases& cases, const Effort& effort);
 // brdf_value.cpp
 Finding weightIsTheQuotient(const BrdfCases& cases, const Effort& effort);
 Finding noEnergyIsGained(const BrdfCases& cases, const Effort& effort);
-Finding mattIsNoMoreThanThereIs(const BrdfCases& cases, const Effort& effort);
+Finding diffusePartIsNoMoreThanThereIs(const BrdfCases& cases, const Effort& effort);
 /// f(b, a) = etaScale(a, b) f(a, b): on one side of the surface, or through it.
 Finding isReciprocal(const BrdfCases& cases, const Effort& effort, bool across);
 Finding etaScaleFollowsSnell(const BrdfCases& cases, const Effort& effort);

@@ -15,8 +15,8 @@ struct Question {
   bool isDrawn;  ///< sample() gives something, so it has derivatives
 };
 
-const char* const kMethods[] = {"sample()", "eval()", "pdf()", "sampleDerivatives()",
-                                "logGradient()"};
+const char* const kMethods[] = {"sample()", "evaluate().fCos", "evaluate().pdf",
+                                "sampleDerivatives()", "logGradient()"};
 
 /// One method's answer, as bits.
 Bits answer(const Question& q, std::size_t method) {
@@ -30,7 +30,7 @@ Bits answer(const Question& q, std::size_t method) {
       }
       break;
     case 1:
-      bits.add(b.eval(q.at, q.toNext));
+      bits.add(b.f(q.at, q.toNext));
       break;
     case 2:
       bits.add(b.pdf(q.at, q.toNext));
@@ -84,8 +84,8 @@ std::vector<Timing> timings(const BrdfCases& cases) {
                   const auto s = b.sample(q.at, q.numbers);
                   return s ? s->pdf : 0;
                 }),
-          taken("eval()", [](const Brdf& b, Q q) { return b.eval(q.at, q.toNext).g; }),
-          taken("pdf()", [](const Brdf& b, Q q) { return b.pdf(q.at, q.toNext); }),
+          taken("evaluate().fCos", [](const Brdf& b, Q q) { return b.f(q.at, q.toNext).g; }),
+          taken("evaluate().pdf", [](const Brdf& b, Q q) { return b.pdf(q.at, q.toNext); }),
           taken("sampleDerivatives()",
                 [](const Brdf& b, Q q) { return b.sampleDerivatives(q.at, q.numbers).du.c[0].x; }),
           taken("logGradient()",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// eval(), the sample's weight, etaScale() and matt().
+// evaluate(), the sample's weight, etaScale() and diffuse().
 #include "judge/brdf_tests.h"
 
 namespace vestige::judge {
@@ -16,25 +16,25 @@ BothWays bothWays(const BrdfCase& c, const ScatterPoint& p, Vec3 toNext) {
   // The frame faces the known direction, on whichever side that is.
   const bool crosses = toNext.z < 0;
   const auto facing = [&](Vec3 d) { return crosses ? Vec3{d.x, d.y, -d.z} : d; };
-  const ScatterPoint back = c.at(facing(toNext), p.inside != crosses);
-  return {c.brdf->etaScale(p, toNext) * c.brdf->eval(p, toNext),
-          c.brdf->eval(back, facing(p.toPrev))};
+  const ScatterPoint back = c.at(facing(toNext), p.behind != crosses);
+  return {c.brdf->etaScale(p, toNext) * c.brdf->f(p, toNext), c.brdf->f(back, facing(p.toPrev))};
 }
 
-/// What is left for rays when the matt part is taken away, in the mean over directions.
-void seeRestOfMatt(Finding& f, const BrdfCase& c, const ScatterPoint& p, const MattPart& matt,
+/// What is left for rays when the diffuse part is taken away, in the mean over directions.
+void seeWhatIsLeft(Finding& f, const BrdfCase& c, const ScatterPoint& p, const DiffusePart& diffuse,
                    int samples, Random& r) {
   double sum = 0, squares = 0;
   for (int i = 0; i < samples; ++i)
     if (const auto s = c.brdf->sample(p, numbers(r))) {
       double rest = double(luminance(s->weight));
       if (!s->specular && s->toNext.z > 0)
-        rest -= double(luminance(matt.albedo) / kPi * s->toNext.z / s->pdf);
+        rest -= double(luminance(diffuse.albedo) / kPi * s->toNext.z / s->pdf);
       sum += rest, squares += rest * rest;
     }
   const double mean = sum / samples, variance = std::max(squares / samples - mean * mean, 0.0);
   f.worst.see(-mean / (5 * std::sqrt(variance / samples) + 0.01), [&] {
-    return eventLine(c, p, {}, told("without the matt part there is left", mean, 0) + " or more");
+    return eventLine(c, p, {},
+                     told("without the diffuse part there is left", mean, 0) + " or more");
   });
 }
 
@@ -46,14 +46,14 @@ Finding weightIsTheQuotient(const BrdfCases& cases, const Effort& effort) {
     const auto s = c.brdf->sample(p, n);
     if (!s) return;
     if (s->specular) {  // then f has no value at a point
-      f.worst.see(isBlack(c.brdf->eval(p, s->toNext)) ? 0 : 2,
+      f.worst.see(isBlack(c.brdf->f(p, s->toNext)) ? 0 : 2,
                   [&] { return eventLine(c, p, n, "the sample is specular, but f is not 0"); });
       return;
     }
     const Real pdf = c.brdf->pdf(p, s->toNext);
-    const Rgb weight = std::abs(s->toNext.z) / pdf * c.brdf->eval(p, s->toNext);
+    const Rgb weight = std::abs(s->toNext.z) / pdf * c.brdf->f(p, s->toNext);
     const auto quotient = [&](const ScatterPoint& q, Vec3 d) {
-      return std::abs(d.z) * maxComponent(c.brdf->eval(q, d)) / c.brdf->pdf(q, d);
+      return std::abs(d.z) * maxComponent(c.brdf->f(q, d)) / c.brdf->pdf(q, d);
     };
     const double allowed = (kDouble ? 1e-9 : 1e-3) + 4 * wobble(p, s->toNext, quotient);
     f.worst.see(relative(weight, s->weight) / allowed, [&] {
@@ -68,13 +68,13 @@ Finding weightIsTheQuotient(const BrdfCases& cases, const Effort& effort) {
 }
 
 Finding noEnergyIsGained(const BrdfCases& cases, const Effort& effort) {
-  Finding f{"no surface gives back more than it gets", "eval()"};
+  Finding f{"no surface gives back more than it gets", "evaluate().fCos"};
   const int samples = energySamples(effort);
   Random r(effort.seed + 2);
   for (const BrdfCase& c : cases)
     for (const Real height : {Real(1), Real(0.6), Real(0.3), Real(0.1), Real(0.02)})
-      for (const bool inside : {false, true}) {
-        const ScatterPoint p = c.at(atHeight(height, r), inside);
+      for (const bool behind : {false, true}) {
+        const ScatterPoint p = c.at(atHeight(height, r), behind);
         Rgb sum, squares;
         for (int i = 0; i < samples; ++i)
           if (const auto s = c.brdf->sample(p, numbers(r)))
@@ -94,32 +94,33 @@ Finding noEnergyIsGained(const BrdfCases& cases, const Effort& effort) {
   return f;
 }
 
-Finding mattIsNoMoreThanThereIs(const BrdfCases& cases, const Effort& effort) {
-  Finding f{"matt() is no more than there is", "matt()"};
+Finding diffusePartIsNoMoreThanThereIs(const BrdfCases& cases, const Effort& effort) {
+  Finding f{"diffuse() is no more than there is", "diffuse()"};
   Random r(effort.seed + 3);
   for (const BrdfCase& c : cases)
     for (const Real height : {Real(1), Real(0.5), Real(0.1)})
-      for (const bool inside : {false, true}) {
-        const ScatterPoint p = c.at(atHeight(height, r), inside);
-        const MattPart matt = c.brdf->matt(p);
-        const bool isAlbedo = std::min({matt.albedo.r, matt.albedo.g, matt.albedo.b}) >= 0 &&
-                              maxComponent(matt.albedo) <= Real(1.0001);
+      for (const bool behind : {false, true}) {
+        const ScatterPoint p = c.at(atHeight(height, r), behind);
+        const DiffusePart diffuse = c.brdf->diffuse(p);
+        const bool isAlbedo =
+            std::min({diffuse.albedo.r, diffuse.albedo.g, diffuse.albedo.b}) >= 0 &&
+            maxComponent(diffuse.albedo) <= Real(1.0001);
         if (!isAlbedo)
           f.worst.see(HUGE_VAL, [&] {
             return eventLine(c, p, {},
-                             told("its albedo is", double(maxComponent(matt.albedo)), 1) +
+                             told("its albedo is", double(maxComponent(diffuse.albedo)), 1) +
                                  " at most, and no less than 0");
           });
-        if (!matt.isAll) {
-          seeRestOfMatt(f, c, p, matt, energySamples(effort), r);
+        if (!diffuse.isAll) {
+          seeWhatIsLeft(f, c, p, diffuse, energySamples(effort), r);
           continue;
         }
         const Vec3 next = anywhere(r);
-        const Rgb expected = next.z > 0 ? matt.albedo / kPi : Rgb{};
-        f.worst.see(relative(c.brdf->eval(p, next), expected) / 1e-5, [&] {
+        const Rgb expected = next.z > 0 ? diffuse.albedo / kPi : Rgb{};
+        f.worst.see(relative(c.brdf->f(p, next), expected) / 1e-5, [&] {
           return eventLine(
               c, p, {},
-              told("it says it is all, but f is", double(maxComponent(c.brdf->eval(p, next))),
+              told("it says it is all, but f is", double(maxComponent(c.brdf->f(p, next))),
                    double(maxComponent(expected))));
         });
       }
@@ -129,7 +130,7 @@ Finding mattIsNoMoreThanThereIs(const BrdfCases& cases, const Effort& effort) {
 Finding isReciprocal(const BrdfCases& cases, const Effort& effort, bool across) {
   Finding f{across ? "f(b, a) = etaScale(a, b) f(a, b) through the surface"
                    : "f(b, a) = f(a, b) on one side",
-            across ? "etaScale()" : "eval()"};
+            across ? "etaScale()" : "evaluate().fCos"};
   const auto judge = [&](const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Random& r) {
     Vec3 toNext = anywhere(r);  // half of them where the lobe is: a narrow one is zero elsewhere
     if (r.number() < Real(0.5))

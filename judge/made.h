@@ -4,6 +4,7 @@
 #pragma once
 #include <vestige/host.h>
 #include <vestige/inputs.h>
+#include <vestige/sampling.h>
 
 #include <algorithm>
 #include <map>
@@ -61,13 +62,36 @@ class SmallTexture final : public Texture {
   Wrap wrapU_, wrapV_;
 };
 
-/// Every file is found, every image is the small texture, warnings are kept.
+/// Diffuse, reflecting a half: what a BRDF that holds others holds here.
+class PlainDiffuse final : public Brdf {
+ public:
+  ScatterValue evaluate(const ScatterPoint&, Vec3 toNext) const noexcept override {
+    const Real density = std::max(toNext.z, Real(0)) / kPi;
+    return {grey(density / 2), density};
+  }
+  std::optional<ScatterSample> sample(const ScatterPoint&,
+                                      ScatterNumbers n) const noexcept override {
+    const Vec3 toNext = cosineHemisphere(n.u).d;
+    return ScatterSample::only(toNext, grey(Real(0.5)), toNext.z / kPi);
+  }
+  ScatterJacobian sampleDerivatives(const ScatterPoint&, ScatterNumbers n) const noexcept override {
+    return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
+  }
+  LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+  DiffusePart diffuse(const ScatterPoint&) const noexcept override {
+    return {grey(Real(0.5)), true};
+  }
+};
+
+/// Every file is found, every image is the small texture, every BRDF inside another is a plain
+/// diffuse one; warnings are kept.
 class NullHost final : public Host {
  public:
   std::string find(const std::string& file, Span, std::string&) override { return file; }
   std::shared_ptr<const Texture> texture(const TextureRequest& request, std::string&) override {
     return std::make_shared<SmallTexture>(request.wrapU, request.wrapV);
   }
+  NestedBrdf brdf(const Block*) override { return {std::make_shared<PlainDiffuse>(), 0}; }
   void warn(Span, const std::string& message) override { warnings.push_back(message); }
   std::vector<std::string> warnings;
 };

@@ -2,13 +2,14 @@
 #include "engine/scene/builder.h"
 
 #include <fmt/format.h>
+#include <vestige/medium.h>
 
 #include "engine/scene/engine_schemas.h"
 
 namespace vestige {
 namespace {
 
-/// What a shape wears that says nothing.
+/// The material of a shape that names none.
 Block defaultBrdf() {
   Block b;
   b.kind = "brdf", b.plugin = "lambert";
@@ -61,7 +62,11 @@ SceneBuilder::SceneBuilder(Scene& scene, const SceneDesc& description, const Reg
       diagnostics_(diagnostics),
       impl_(scene.impl()),
       host_(description, *impl_.textures, diagnostics, options.files,
-            options.cache ? options.cache->textures_.get() : nullptr) {}
+            options.cache ? options.cache->textures_.get() : nullptr) {
+  host_.setNested({[this](const Block* b) { return nestedBrdf(b); },
+                   [this](const Block& b) { return nestedPigment(b); },
+                   [this](const Block& b) { return nestedMedium(b); }});
+}
 
 bool SceneBuilder::build() {
   impl_.hash = description_.hash;
@@ -271,41 +276,148 @@ std::optional<PlacedPigment> SceneBuilder::pigment(const Block& block, const Aff
   return PlacedPigment{made, world.inverse(), block.own.inverse()};
 }
 
+void SceneBuilder::addInputs(const Block& block, bool isNested) {
+  if (!known(block)) return;
+  const std::vector<Parameter>& rows = registry_.schema("brdf", block.plugin)->inputs;
+  const std::size_t own = registry_.find("brdf", block.plugin)->schema->inputs.size();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Value* given = block.find(rows[i].name);
+    if (i < own || !isNested)
+      inputs_.push_back({&rows[i], given});
+    else if (given)
+      error(given->span, fmt::format("'{}' belongs to the surface: write it in the outer brdf, not "
+                                     "in one inside it",
+                                     rows[i].name));
+  }
+}
+
+/// Constant or textured.
+void SceneBuilder::evaluateInput(Material& m, int index, const Affine& partToWorld) {
+  const auto [row, given] = inputs_[std::size_t(index)];
+  if (!given || given->kind != Value::Kind::block) {
+    m.constants[index] = constantInput(*row, given ? *given : row->initial);
+    return;
+  }
+  const std::optional<PlacedPigment> p = pigment(*given->block, partToWorld);
+  if (!p) return;
+  const Rgba mean = p->pigment->mean();
+  m.constants[index] = {{mean.colour.r, mean.colour.g, mean.colour.b, mean.alpha}};
+  const bool isReal = row->type == ValueType::real;
+  // What enters the light linearly may be averaged; a normal or a roughness may not [MATH T8].
+  const bool isFiltered =
+      index == m.opacity || (!isReal && index != m.normalMap && !row->isNonlinear);
+  m.textured.push_back({index, isReal, isFiltered, Real(row->low), Real(row->high), *p});
+  m.usesFootprint |= isFiltered;
+  if (index == m.normalMap) m.hasNormalMap = true;
+  if (index == m.opacity) m.isTranslucent = true;
+}
+
 Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld) {
   Material m;
   const int errorsBefore = diagnostics_.errors();
-  m.brdf = create<Brdf>(block);
-  if (!m.brdf) return m;
-  const std::vector<Parameter>& rows = registry_.schema("brdf", block.plugin)->inputs;
-  if (rows.size() > kMaxInputs) {
-    error(block.span, fmt::format("brdf {} declares {} inputs, at most {} are possible",
-                                  block.plugin, rows.size(), kMaxInputs));
-    m.brdf = nullptr;
+  inputs_.clear();
+  addInputs(block, false);
+  firstInput_ = 0;
+  std::shared_ptr<Brdf> brdf = create<Brdf>(block);
+  firstInput_ = -1;
+  if (!brdf || diagnostics_.errors() > errorsBefore) return m;
+  if (inputs_.size() > kMaxInputs) {
+    error(block.span, fmt::format("brdf {} and those inside it declare {} inputs, at most {} are "
+                                  "possible",
+                                  block.plugin, inputs_.size(), kMaxInputs));
     return m;
   }
-  m.inputs = int(rows.size());
-  m.normalMap = m.inputs - 2, m.opacity = m.normalMap + 1;
-  for (int i = 0; i < m.inputs; ++i) {
-    const Value* given = block.find(rows[i].name);
-    if (!given || given->kind != Value::Kind::block) {
-      m.constants[i] = constantInput(rows[i], given ? *given : rows[i].initial);
-      continue;
-    }
-    const std::optional<PlacedPigment> p = pigment(*given->block, partToWorld);
-    if (!p) continue;
-    const Rgba mean = p->pigment->mean();
-    m.constants[i] = {{mean.colour.r, mean.colour.g, mean.colour.b, mean.alpha}};
-    const bool isReal = rows[i].type == ValueType::real;
-    // What enters the light linearly may be averaged; a normal or a roughness may not [MATH T8].
-    const bool isFiltered = i == m.opacity || (!isReal && i != m.normalMap && !rows[i].isNonlinear);
-    m.textured.push_back({i, isReal, isFiltered, Real(rows[i].low), Real(rows[i].high), *p});
-    m.usesFootprint |= isFiltered;
-    if (i == m.normalMap) m.hasNormalMap = true;
-    if (i == m.opacity) m.isTranslucent = true;
+  m.batch = static_cast<const BrdfBatch*>(registry_.find("brdf", block.plugin)->entry->batch);
+  m.inputs = int(inputs_.size());
+  for (int i = m.inputs - 1; i >= 0; --i) {  // of several indices the outermost counts
+    const Parameter& row = *inputs_[std::size_t(i)].row;
+    if (row.name == kNormalMap) m.normalMap = i;
+    if (row.name == kOpacity) m.opacity = i;
+    if (row.isRefractiveIndex) m.refractiveIndex = i;
   }
+  for (int i = 0; i < m.inputs; ++i) evaluateInput(m, i, partToWorld);
   if (m.constants[m.opacity].v[0] < 1) m.isTranslucent = true;
-  if (diagnostics_.errors() > errorsBefore) m.brdf = nullptr;
+  if (diagnostics_.errors() == errorsBefore) m.brdf = std::move(brdf);
   return m;
+}
+
+// ---------------------------------------------------------------- plugins inside others
+namespace {
+
+/// Stands in for a BRDF that was refused; nothing is rendered with it.
+class NoBrdf final : public Brdf {
+  ScatterValue evaluate(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+  std::optional<ScatterSample> sample(const ScatterPoint&, ScatterNumbers) const noexcept override {
+    return std::nullopt;
+  }
+};
+
+/// A pigment inside another: the outer one asks it in the outer one's space.
+class InnerPigment final : public Pigment {
+ public:
+  InnerPigment(std::shared_ptr<const Pigment> pigment, const Affine& own)
+      : placed_{std::move(pigment), own.inverse(), own.inverse()} {}
+  Rgba eval(const Lookup& at) const noexcept override { return placed_.eval(at); }
+  Rgba mean() const noexcept override { return placed_.pigment->mean(); }
+  std::optional<PatternValue> pattern(const Lookup& at) const noexcept override {
+    return placed_.pigment->pattern(placed_.inside(at));
+  }
+  Vec2 texels() const noexcept override { return placed_.texels(); }
+
+ private:
+  PlacedPigment placed_;
+};
+
+}  // namespace
+
+NestedBrdf SceneBuilder::nestedBrdf(const Block* block) {
+  static const Block plain = defaultBrdf();
+  const Block& inner = block ? *block : plain;
+  const int first = int(inputs_.size()), outer = firstInput_;
+  const Span place = host_.place();
+  std::shared_ptr<Brdf> brdf;
+  if (outer < 0) {
+    error(at(inner.span), "only a brdf can hold another brdf");
+  } else {
+    addInputs(inner, true);
+    firstInput_ = first;
+    brdf = create<Brdf>(inner);
+    firstInput_ = outer;
+  }
+  host_.setPlace(place);
+  if (!brdf) return {std::make_shared<NoBrdf>(), 0};
+  return {brdf, first - outer};
+}
+
+std::shared_ptr<const Pigment> SceneBuilder::nestedPigment(const Block& block) {
+  const Span place = host_.place();
+  std::shared_ptr<const Pigment> made;
+  if (isInvertible(block.own, at(block.span))) made = create<Pigment>(block);
+  host_.setPlace(place);
+  struct Black final : Pigment {
+    Rgba eval(const Lookup&) const noexcept override { return {}; }
+  };
+  if (!made) return std::make_shared<Black>();
+  return std::make_shared<InnerPigment>(std::move(made), block.own);
+}
+
+std::shared_ptr<const Medium> SceneBuilder::nestedMedium(const Block& block) {
+  const Span place = host_.place();
+  std::shared_ptr<const Medium> made = create<Medium>(block);
+  host_.setPlace(place);
+  struct Isotropic final : PhaseFunction {
+    ScatterValue evaluate(Vec3, Vec3) const noexcept override { return {}; }
+    std::optional<PhaseSample> sample(Vec3, Vec2) const noexcept override { return std::nullopt; }
+  };
+  struct Vacuum final : Medium {
+    FreeFlight fly(const Ray& ray, FlightNumbers) const noexcept override {
+      return {false, ray.tMax, {1, 1, 1}};
+    }
+    Rgb transmittance(const Ray&, FlightNumbers) const noexcept override { return {1, 1, 1}; }
+    const PhaseFunction& phase() const noexcept override { return phase_; }
+    Isotropic phase_;
+  };
+  return made ? made : std::make_shared<Vacuum>();
 }
 
 // ---------------------------------------------------------------- lights, camera, the rest

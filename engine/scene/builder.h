@@ -55,6 +55,12 @@ class SceneBuilder {
   void readFilm(const Block& block);
   std::optional<PlacedPigment> pigment(const Block& block, const Affine& outer);
   Material materialFor(const Block& block, const Affine& partToWorld);
+  /// The inputs that a BRDF and those inside it declare; `isNested`: without the engine's own.
+  void addInputs(const Block& block, bool isNested);
+  void evaluateInput(Material& m, int index, const Affine& partToWorld);
+  NestedBrdf nestedBrdf(const Block* block);
+  std::shared_ptr<const Pigment> nestedPigment(const Block& block);
+  std::shared_ptr<const Medium> nestedMedium(const Block& block);
   bool isInvertible(const Affine& transform, Span place);
   /// A block's span, or that of the shape whose file brought the block along.
   Span at(Span span) const { return span.file >= 0 ? span : place_; }
@@ -67,6 +73,12 @@ class SceneBuilder {
   Scene::Impl& impl_;
   SceneHost host_;
   Span place_;  ///< of the shape being placed
+  struct InputRow {
+    const Parameter* row;
+    const Value* given;  ///< null: the default
+  };
+  std::vector<InputRow> inputs_;  ///< of the material being made
+  int firstInput_ = -1;           ///< of the BRDF being created; -1: no material is being made
   std::map<std::string, BuildCache::KeptShape> shapes_;
   BuildCache::Use use_;
 };

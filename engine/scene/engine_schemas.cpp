@@ -35,11 +35,11 @@ std::vector<Schema> engineSchemas() {
 Schema withEngineRows(Schema schema) {
   if (schema.kind == "brdf") {
     schema.inputs.push_back(
-        parameter("normal_map", ValueType::rgb, colourValue(0.5, 0.5, 1))
+        parameter(kNormalMap, ValueType::rgb, colourValue(0.5, 0.5, 1))
             .doc(
                 "tangent-space normals, 0..1 for -1..1, y towards growing v; color_space \"raw\""));
     schema.inputs.push_back(
-        real("opacity", 1).range(0, 1).doc("share of light that does not pass straight through"));
+        real(kOpacity, 1).range(0, 1).doc("share of light that does not pass straight through"));
     for (Parameter& p : schema.inputs) p.texturable = true;
   }
   if (schema.kind == "shape") {

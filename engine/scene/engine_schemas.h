@@ -17,6 +17,8 @@ Schema withEngineRows(Schema schema);
 
 /// How many inputs withEngineRows() appends to a brdf: normal_map, then opacity.
 inline constexpr int kBrdfRows = 2;
+inline constexpr const char* kNormalMap = "normal_map";
+inline constexpr const char* kOpacity = "opacity";
 /// Names of the rows that it appends to a shape.
 inline constexpr const char* kEmission = "emission";
 inline constexpr const char* kEmissionSides = "emission_sides";

@@ -7,6 +7,9 @@ namespace {
 /// A shading normal is bent until it sees the path at this cosine at least.
 constexpr Real kLeastCosine = Real(1e-3);
 
+/// A texture may say anything; smaller refractive indices are taken as this.
+constexpr Real kLeastIndex = Real(0.1);
+
 Vec2 linearUv(const Affine& a, Vec2 d) noexcept {
   const Vec3 v = a.vector({d.x, d.y, 0});
   return {v.x, v.y};
@@ -40,28 +43,34 @@ Vec3 bent(Vec3 n, Vec3 toPrev) noexcept {
 
 }  // namespace
 
-Rgba PlacedPigment::eval(const SurfacePoint& at, const Footprint& footprint) const noexcept {
+Lookup PlacedPigment::inside(const Lookup& outside) const noexcept {
   Lookup lookup;
-  lookup.position = fromWorld.point(at.position);
-  const Vec3 uv = fromUv.point({at.uv.x, at.uv.y, 0});
+  lookup.position = fromWorld.point(outside.position);
+  const Vec3 uv = fromUv.point({outside.uv.x, outside.uv.y, 0});
   lookup.uv = {uv.x, uv.y};
   for (const int i : {0, 1}) {
-    lookup.footprint.dP[i] = fromWorld.vector(footprint.dP[i]);
-    lookup.footprint.dUv[i] = linearUv(fromUv, footprint.dUv[i]);
+    lookup.footprint.dP[i] = fromWorld.vector(outside.footprint.dP[i]);
+    lookup.footprint.dUv[i] = linearUv(fromUv, outside.footprint.dUv[i]);
   }
-  lookup.footprint.alongMajor = footprint.alongMajor;
-  return pigment->eval(lookup);
+  lookup.footprint.alongMajor = outside.footprint.alongMajor;
+  return lookup;
+}
+
+Rgba PlacedPigment::eval(const SurfacePoint& at, const Footprint& footprint) const noexcept {
+  return eval(Lookup{at.position, at.uv, footprint});
+}
+
+Vec2 PlacedPigment::texels() const noexcept {
+  const Vec2 n = pigment->texels();
+  // A pigment's own scale packs more or fewer of them into the surface's uv.
+  const Vec2 du = linearUv(fromUv, {1, 0}), dv = linearUv(fromUv, {0, 1});
+  return {std::hypot(n.x * du.x, n.y * du.y), std::hypot(n.x * dv.x, n.y * dv.y)};
 }
 
 Vec2 Material::texels() const noexcept {
   Vec2 finest;
-  for (const TexturedInput& t : textured) {
-    const Vec2 n = t.pigment.pigment->texels();
-    // A pigment's own scale packs more or fewer of them into the surface's uv.
-    const Vec2 du = linearUv(t.pigment.fromUv, {1, 0}), dv = linearUv(t.pigment.fromUv, {0, 1});
-    const Vec2 m{std::hypot(n.x * du.x, n.y * du.y), std::hypot(n.x * dv.x, n.y * dv.y)};
-    if (m.x * m.y > finest.x * finest.y) finest = m;
-  }
+  for (const TexturedInput& t : textured)
+    if (const Vec2 m = t.pigment.texels(); m.x * m.y > finest.x * finest.y) finest = m;
   return finest;
 }
 
@@ -96,7 +105,12 @@ void interact(const Material& material, const Surface& surface, Vec3 toPrev,
   x.geometricNormal = behind ? -surface.geometricNormal : surface.geometricNormal;
   x.frame = Frame::along(bent(behind ? -normal : normal, toPrev), surface.dPdu);
   x.point.toPrev = x.frame.toLocal(toPrev);
-  x.point.inside = behind;
+  x.point.behind = behind;
+  const Real inside = material.refractiveIndex < 0
+                          ? Real(1)
+                          : std::max(x.point.inputs.real(material.refractiveIndex), kLeastIndex);
+  x.point.etaPrev = behind ? inside : Real(1);
+  x.point.etaNext = behind ? Real(1) : inside;
   x.opacity = material.opacity < 0
                   ? 1
                   : std::clamp(x.point.inputs.real(material.opacity), Real(0), Real(1));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A BRDF with its inputs: constants, and pigments with the spaces that they live in.
 #pragma once
-#include <vestige/brdf.h>
+#include <vestige/batch.h>
 #include <vestige/integrator.h>
 #include <vestige/pigment.h>
 
@@ -17,6 +17,11 @@ struct PlacedPigment {
   Affine fromUv;     ///< undoes the pigment's own: for uv
   /// The pigment at a point of a surface, averaged over a footprint (world space, uv).
   Rgba eval(const SurfacePoint& at, const Footprint& footprint) const noexcept;
+  /// The same from a lookup in the space that `fromWorld` and `fromUv` lead out of.
+  Rgba eval(const Lookup& outside) const noexcept { return pigment->eval(inside(outside)); }
+  Lookup inside(const Lookup& outside) const noexcept;
+  /// Texels that a unit of the surface's uv spans.
+  Vec2 texels() const noexcept;
 };
 
 struct Material {
@@ -29,10 +34,12 @@ struct Material {
   };
 
   std::shared_ptr<const Brdf> brdf;  ///< null: reflects nothing
+  const BrdfBatch* batch = nullptr;  ///< the same for many points
   int inputs = 0;                    ///< how many there are
   InputBuffer constants{};           ///< of every input; textured ones hold their mean
   std::vector<TexturedInput> textured;
   int normalMap = -1, opacity = -1;  ///< indices of these inputs
+  int refractiveIndex = -1;          ///< of the inside; -1: light passes as through air, if at all
   bool hasNormalMap = false;
   bool isTranslucent = false;  ///< opacity may be below 1
   bool usesFootprint = false;  ///< some input is filtered

@@ -21,8 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Those that the engine has an interface for.
-constexpr std::array<std::string_view, 6> kKinds = {"brdf",  "camera",  "integrator",
-                                                    "light", "pigment", "shape"};
+constexpr std::array<std::string_view, 8> kKinds = {"brdf",   "camera", "integrator", "light",
+                                                    "medium", "phase",  "pigment",    "shape"};
 
 bool isWord(std::string_view text) {
   const auto isLetter = [](char c) {
@@ -35,12 +35,14 @@ bool isWord(std::string_view text) {
 /// Why an entry cannot be used, or "". Fields are read in the order in which they become safe to.
 std::string refusal(const VestigePlugin& e) {
   if (e.magic != kPluginMagic) return "its entry does not begin with the magic number of a plugin";
+  if (e.size < offsetof(VestigePlugin, abiTag))
+    return fmt::format("its entry is only {} bytes long", e.size);
+  if (e.sdkMajor != kSdkMajor || e.sdkMinor > kSdkMinor)
+    return fmt::format("it was built for SDK {}.{}, this engine has {}.{}: build it again",
+                       e.sdkMajor, e.sdkMinor, kSdkMajor, kSdkMinor);
   if (e.size < sizeof(VestigePlugin))
     return fmt::format("its entry is {} bytes long, this engine needs {}", e.size,
                        sizeof(VestigePlugin));
-  if (e.sdkMajor != kSdkMajor || e.sdkMinor > kSdkMinor)
-    return fmt::format("it was built for SDK {}.{}, this engine has {}.{}", e.sdkMajor, e.sdkMinor,
-                       kSdkMajor, kSdkMinor);
   if (!e.abiTag || std::string_view(e.abiTag) != kAbiTag)
     return fmt::format("it was built as '{}', this engine as '{}'", e.abiTag ? e.abiTag : "",
                        kAbiTag);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Host that plugins of a scene are created with: files beside the scene text, shared textures.
 #pragma once
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -39,8 +40,24 @@ class SceneHost final : public Host {
                                          std::string& error) override;
   void warn(Span span, const std::string& message) override;
   void note(const std::string& message) override;
+  NestedBrdf brdf(const Block* block) override { return nested_.brdf(block); }
+  std::shared_ptr<const Pigment> pigment(const Block& block) override {
+    return nested_.pigment(block);
+  }
+  std::shared_ptr<const Medium> medium(const Block& block) override {
+    return nested_.medium(block);
+  }
+
+  /// Who makes plugins inside others: the builder.
+  struct Nested {
+    std::function<NestedBrdf(const Block*)> brdf;
+    std::function<std::shared_ptr<const Pigment>(const Block&)> pigment;
+    std::function<std::shared_ptr<const Medium>(const Block&)> medium;
+  };
+  void setNested(Nested nested) { nested_ = std::move(nested); }
   /// Where spans point that a plugin did not set: at the block it was made for.
   void setPlace(Span span) { place_ = span; }
+  Span place() const { return place_; }
   /// From now on; null: no more.
   void recordTo(HostRecord* record) { record_ = record; }
 
@@ -52,6 +69,7 @@ class SceneHost final : public Host {
   const TextureStore* before_;
   HostRecord* record_ = nullptr;
   Span place_;
+  Nested nested_;
   std::set<std::string> noted_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Matt: the same radiance in every direction, from either side.
+// Diffuse: the same radiance in every direction, from either side.
 //
 //     f(prev, next) = diffuse / pi
 #include <vestige/brdf.h>
@@ -20,25 +20,15 @@ class Lambert final : public Brdf {
             .inputs = {rgb("diffuse", 0.5).range(0, 1).doc("reflected fraction")}};
   }
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return toNext.z > 0 ? p.inputs.rgb(kDiffuse) / kPi : Rgb{};
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    const Real density = std::max(toNext.z, Real(0)) / kPi;
+    return {density * p.inputs.rgb(kDiffuse), density};
   }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     const Vec3 toNext = cosineHemisphere(n.u).d;
-    const Real density = toNext.z / kPi;
-    return ScatterSample{.toNext = toNext,
-                         .weight = p.inputs.rgb(kDiffuse),
-                         .pdf = density,
-                         .lobePdf = density,
-                         .lobeChance = 1,
-                         .lobe = 0,
-                         .specular = false};
-  }
-
-  Real pdf(const ScatterPoint&, Vec3 toNext) const noexcept override {
-    return std::max(toNext.z, Real(0)) / kPi;
+    return ScatterSample::only(toNext, p.inputs.rgb(kDiffuse), toNext.z / kPi);
   }
 
   /// The direction depends on the normal alone.
@@ -46,7 +36,7 @@ class Lambert final : public Brdf {
     return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
   }
 
-  MattPart matt(const ScatterPoint& p) const noexcept override {
+  DiffusePart diffuse(const ScatterPoint& p) const noexcept override {
     return {p.inputs.rgb(kDiffuse), true};
   }
 

@@ -18,22 +18,14 @@ class Mirror final : public Brdf {
             .inputs = {rgb("specular", 1).range(0, 1).doc("reflected fraction")}};
   }
 
-  Rgb eval(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+  ScatterValue evaluate(const ScatterPoint&, Vec3) const noexcept override { return {}; }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers) const noexcept override {
     const Rgb specular = p.inputs.rgb(kSpecular);
     if (isBlack(specular)) return std::nullopt;
-    return ScatterSample{.toNext = reflectAt(p.toPrev, kNormal).direction,
-                         .weight = specular,
-                         .pdf = 1,
-                         .lobePdf = 1,
-                         .lobeChance = 1,
-                         .lobe = 0,
-                         .specular = true};
+    return ScatterSample::mirror(reflectAt(p.toPrev, kNormal).direction, specular);
   }
-
-  Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 0; }
 
   ScatterJacobian sampleDerivatives(const ScatterPoint& p, ScatterNumbers) const noexcept override {
     return {.du = {}, .dPrev = reflectAt(p.toPrev, kNormal).dPrev()};

@@ -32,15 +32,21 @@ class Phong final : public Brdf {
             .name = "phong",
             .summary = "glossy reflection and transmission, cosine-power lobes",
             .inputs = {rgb("specular", 0).range(0, 1).doc("reflected fraction at normal incidence"),
-                       real("exponent", 50).range(0, 1e6).doc("0 matt, 1000 almost a mirror"),
+                       real("exponent", 50).range(0, 1e6).doc("0 diffuse, 1000 almost a mirror"),
                        rgb("transmission", 0).range(0, 1).doc("transmitted fraction, likewise"),
-                       real("ior", 1.5).range(0.1, 10).doc("index of the inside; outside is 1")}};
+                       real("ior", 1.5)
+                           .range(0.1, 10)
+                           .refractiveIndex()
+                           .doc("refractive index of the inside")}};
   }
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Real n = exponent(p);
-    const Axis a = axis(p, side(toNext));
-    return (n + 2) / (2 * kPi) * cosPower(a, toNext, n) * fraction(p, side(toNext));
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    const Lobe lobe = side(toNext);
+    const Real n = exponent(p), reflect = reflectChance(p);
+    if (!(reflect >= 0)) return {};
+    const Real power = cosPower(axis(p, lobe), toNext, n) / (2 * kPi);
+    const Real chance = lobe == kReflected ? reflect : 1 - reflect;
+    return {(n + 2) * power * std::abs(toNext.z) * fraction(p, lobe), chance * (n + 1) * power};
   }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
@@ -64,13 +70,6 @@ class Phong final : public Brdf {
                          .specular = false};
   }
 
-  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Real n = exponent(p), reflect = reflectChance(p);
-    if (!(reflect >= 0)) return 0;
-    const Real chance = side(toNext) == kReflected ? reflect : 1 - reflect;
-    return chance * (n + 1) / (2 * kPi) * cosPower(axis(p, side(toNext)), toNext, n);
-  }
-
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers r) const noexcept override {
     const Axis a = axis(p, r.lobe < reflectChance(p) ? kReflected : kRefracted);
@@ -92,10 +91,6 @@ class Phong final : public Brdf {
     return {slope * (transpose(a.dPrev) * toNext), slope * a.direction};
   }
 
-  Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return toNext.z < 0 ? sqr(eta(p)) : 1;
-  }
-
  private:
   /// Middle of a lobe and how it moves with toPrev.
   struct Axis {
@@ -113,15 +108,12 @@ class Phong final : public Brdf {
   static Real exponent(const ScatterPoint& p) noexcept {
     return std::clamp(p.inputs.real(kExponent), Real(0), Real(1e6));
   }
-  static Real eta(const ScatterPoint& p) noexcept {
-    return interfaceEta(p.inputs.real(kIor), p.inside);
-  }
 
   static Axis axis(const ScatterPoint& p, Lobe lobe) noexcept {
     constexpr Vec3 normal = {0, 0, 1};
-    if (lobe == kRefracted && refractedCosine(p.toPrev.z, eta(p)) < 0) return {};
-    const Turned t =
-        lobe == kReflected ? reflectAt(p.toPrev, normal) : refractAt(p.toPrev, normal, eta(p));
+    if (lobe == kRefracted && refractedCosine(p.toPrev.z, p.eta()) < 0) return {};
+    const Deflection t =
+        lobe == kReflected ? reflectAt(p.toPrev, normal) : refractAt(p.toPrev, normal, p.eta());
     return {t.direction, t.dPrev()};
   }
 
@@ -135,7 +127,7 @@ class Phong final : public Brdf {
 
   /// By luminance; negative where there is no lobe to choose.
   static Real reflectChance(const ScatterPoint& p) noexcept {
-    const bool total = refractedCosine(p.toPrev.z, eta(p)) < 0;
+    const bool total = refractedCosine(p.toPrev.z, p.eta()) < 0;
     const Real s = luminance(fraction(p, kReflected));
     const Real t = total ? 0 : luminance(fraction(p, kRefracted));
     return s + t > 0 ? s / (s + t) : Real(-1);

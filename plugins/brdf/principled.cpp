@@ -36,20 +36,20 @@ class Principled final : public Brdf {
         .kind = "brdf",
         .name = "principled",
         .summary = "metal, plastic, paint and glass from a few numbers, as in glTF",
-        .inputs = {rgb("base_color", 0.8).range(0, 1).doc("of the matt part, metal or glass"),
+        .inputs = {rgb("base_color", 0.8).range(0, 1).doc("of the diffuse part, metal or glass"),
                    real("metallic", 0).range(0, 1).doc("0 plastic, paint or glass; 1 metal"),
                    real("roughness", 0.5).range(0, 1).doc("square root of the GGX width"),
                    real("specular", 1).range(0, 1).doc("scales the reflection of non-metals"),
                    real("transmission", 0).range(0, 1).doc("0 opaque, 1 clear (or ground) glass"),
-                   real("ior", 1.5).range(0.1, 10).doc("index of the inside; outside is 1")}};
+                   real("ior", 1.5)
+                       .range(0.1, 10)
+                       .refractiveIndex()
+                       .doc("refractive index of the inside")}};
   }
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     const Model m(p);
-    const Facet f = facetBetween(p.toPrev, toNext, m.eta);
-    Rgb value = m.diffuse(toNext.z).value;
-    if (f.exists()) value += facetValue(m.ggx, f, p.toPrev, toNext) * m.share(f, toNext).value;
-    return value;
+    return m.value(facetBetween(p.toPrev, toNext, m.eta), toNext);
   }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
@@ -61,21 +61,14 @@ class Principled final : public Brdf {
     if (!(rightSide && d.chance * density > 0)) return std::nullopt;
     // Of one facet, so that narrow lobes cancel exactly; a diffuse direction has its own half-way.
     const Facet f = d.lobe == kDiffuse ? facetBetween(p.toPrev, d.toNext, m.eta) : d.facet;
-    Rgb value = m.diffuse(d.toNext.z).value;
-    if (f.exists()) value += facetValue(m.ggx, f, p.toPrev, d.toNext) * m.share(f, d.toNext).value;
-    const Real pdf = m.pdf(f, d.toNext);
+    const ScatterValue value = m.value(f, d.toNext);
     return ScatterSample{.toNext = d.toNext,
-                         .weight = std::abs(d.toNext.z) / pdf * value,
-                         .pdf = pdf,
+                         .weight = value.fCos / value.pdf,
+                         .pdf = value.pdf,
                          .lobePdf = density,
                          .lobeChance = d.chance,
                          .lobe = d.lobe,
                          .specular = false};
-  }
-
-  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Model m(p);
-    return m.pdf(facetBetween(p.toPrev, toNext, m.eta), toNext);
   }
 
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
@@ -83,9 +76,9 @@ class Principled final : public Brdf {
     const Model m(p);
     if (n.lobe < m.diffuseChance) return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
     const VisibleNormal v = m.ggx.sampleVisibleDerivatives(m.prev, n.u);
-    const Way way = choose(m, v.h, n.lobe);
+    const Choice facet = choose(m, v.h, n.lobe);
     return leavingDerivatives(
-        way.lobe == kReflected ? reflectAt(m.prev, v.h) : refractAt(m.prev, v.h, m.eta), v);
+        facet.lobe == kReflected ? reflectAt(m.prev, v.h) : refractAt(m.prev, v.h, m.eta), v);
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
@@ -109,7 +102,7 @@ class Principled final : public Brdf {
 
   /// B's directional albedo. Over the hemisphere f cos is a mean over cos^2: Gauss and Legendre's
   /// rule of three nodes.
-  MattPart matt(const ScatterPoint& p) const noexcept override {
+  DiffusePart diffuse(const ScatterPoint& p) const noexcept override {
     const Model m(p);
     return {kPi / 18 *
             (5 * m.diffuse(Real(0.335711)).value + 8 * m.diffuse(Real(0.707107)).value +
@@ -117,15 +110,16 @@ class Principled final : public Brdf {
   }
 
   Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return toNext.z < 0 ? sqr(roughInterfaceEta(p.inputs.real(kIor), p.inside)) : 1;
+    return toNext.z < 0 ? sqr(roughEta(p)) : 1;
   }
 
  private:
-  /// A share of each channel that takes one of the ways at a facet, and its derivative by prev . h.
+  /// A share of each channel that is reflected or refracted by a facet, and its derivative by prev
+  /// . h.
   struct Tint {
     Rgb value, slope;
   };
-  /// f of the matt part, 1/sr, and d(log f) by prev.z and by next.z.
+  /// f of the diffuse part, 1/sr, and d(log f) by prev.z and by next.z.
   struct Diffuse {
     Rgb value;
     Real byPrev, byNext;
@@ -154,8 +148,8 @@ class Principled final : public Brdf {
     explicit Model(const ScatterPoint& p) noexcept
         : prev(p.toPrev),
           ggx(sqr(p.inputs.real(kRoughness))),
-          eta(roughInterfaceEta(p.inputs.real(kIor), p.inside)),
-          etaOutside(roughInterfaceEta(p.inputs.real(kIor), false)),
+          eta(roughEta(p)),
+          etaOutside(p.behind ? 1 / eta : eta),
           base(p.inputs.rgb(kBaseColor)),
           specular(unit(p.inputs.real(kSpecular))),
           metal(unit(p.inputs.real(kMetallic))),
@@ -219,6 +213,11 @@ class Principled final : public Brdf {
       if (d.lobe == kDiffuse) return d.toNext.z / kPi;
       return d.facet.exists() ? facetPdf(ggx, d.facet, prev, d.toNext) : 0;
     }
+    ScatterValue value(const Facet& f, Vec3 toNext) const noexcept {
+      Rgb value = diffuse(toNext.z).value;
+      if (f.exists()) value += facetValue(ggx, f, prev, toNext) * share(f, toNext).value;
+      return {std::abs(toNext.z) * value, pdf(f, toNext)};
+    }
     Real pdf(const Facet& f, Vec3 toNext) const noexcept {
       Real sum = diffuseChance * std::max(toNext.z, Real(0)) / kPi;
       if (!f.exists()) return sum;
@@ -230,26 +229,27 @@ class Principled final : public Brdf {
   };
 
   /// What a facet does, and the chance of it among facets.
-  struct Way {
+  struct Choice {
     Lobe lobe;
     Real chance;  ///< 0: it absorbs
   };
 
   /// Decided by what is left of the number that picked facets.
-  static Way choose(const Model& m, Vec3 h, Real lobe) noexcept {
+  static Choice choose(const Model& m, Vec3 h, Real lobe) noexcept {
     const Real rest = (lobe - m.diffuseChance) / (1 - m.diffuseChance);
     const Chances chance = m.chances(std::max(dot(m.prev, h), Real(0)));
     if (rest < chance.reflect) return {kReflected, chance.reflect};
     return {kRefracted, chance.refract};
   }
 
-  /// `lobe` picks matt or facets; u the direction or the facet's normal. Chance 0: absorbed.
+  /// `lobe` picks the diffuse lobe or facets; u the direction or the facet's normal. Chance 0:
+  /// absorbed.
   static Drawn draw(const Model& m, ScatterNumbers n) noexcept {
     if (n.lobe < m.diffuseChance) return {kDiffuse, m.diffuseChance, cosineHemisphere(n.u).d, {}};
     const Vec3 h = m.ggx.sampleVisible(m.prev, n.u);
-    const Way way = choose(m, h, n.lobe);
-    const Real chance = (1 - m.diffuseChance) * way.chance;
-    if (way.lobe == kReflected)
+    const Choice facet = choose(m, h, n.lobe);
+    const Real chance = (1 - m.diffuseChance) * facet.chance;
+    if (facet.lobe == kReflected)
       return {kReflected, chance, reflectAt(m.prev, h).direction, reflectingFacet(m.prev, h)};
     if (!(chance > 0)) return {};
     return {kRefracted, chance, refractAt(m.prev, h, m.eta).direction,

@@ -31,10 +31,12 @@ class RoughConductor final : public Brdf {
                        .doc("reflected fraction at normal incidence, where eta and k are 0")}};
   }
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     const Facet f = facet(p, toNext);
     if (!f.exists()) return {};
-    return facetValue(ggx(p), f, p.toPrev, toNext) * reflected(p, f.cosPrev).value;
+    const Ggx surface = ggx(p);
+    return {toNext.z * facetValue(surface, f, p.toPrev, toNext) * reflected(p, f.cosPrev).value,
+            facetPdf(surface, f, p.toPrev, toNext)};
   }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
@@ -45,18 +47,8 @@ class RoughConductor final : public Brdf {
     const Facet f = reflectingFacet(p.toPrev, h);
     const Real density = facetPdf(surface, f, p.toPrev, toNext);
     if (!(toNext.z > 0 && f.exists() && density > 0)) return std::nullopt;
-    return ScatterSample{.toNext = toNext,
-                         .weight = surface.masking(toNext) * reflected(p, f.cosPrev).value,
-                         .pdf = density,
-                         .lobePdf = density,
-                         .lobeChance = 1,
-                         .lobe = 0,
-                         .specular = false};
-  }
-
-  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Facet f = facet(p, toNext);
-    return f.exists() ? facetPdf(ggx(p), f, p.toPrev, toNext) : 0;
+    return ScatterSample::only(toNext, surface.masking(toNext) * reflected(p, f.cosPrev).value,
+                               density);
   }
 
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ground glass: GGX microfacets that each reflect and refract by Fresnel's law. Outside has index
-// 1. A single scattering is followed, so rough surfaces lose a few percent.
+// Ground glass: GGX microfacets that each reflect and refract by Fresnel's law. A single scattering
+// is followed, so rough surfaces lose a few percent.
 //
 //     f(prev, next) = F D G1 G1 / (4 prev.z next.z)                             reflection
 //                   = (1 - F) |prev . h| |next . h| D G1 G1
@@ -28,13 +28,19 @@ class RoughDielectric final : public Brdf {
             .name = "rough_dielectric",
             .summary = "clear solid with GGX roughness: reflects and refracts",
             .inputs = {real("alpha", 0.1).range(0, 1).doc("GGX width: 0.01 clear, 0.5 frosted"),
-                       real("ior", 1.5).range(0.1, 10).doc("index of the inside; outside is 1")}};
+                       real("ior", 1.5)
+                           .range(0.1, 10)
+                           .refractiveIndex()
+                           .doc("refractive index of the inside")}};
   }
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     const Facet f = facetBetween(p.toPrev, toNext, eta(p));
     if (!f.exists()) return {};
-    return grey(share(f, p, toNext).value * facetValue(ggx(p), f, p.toPrev, toNext));
+    const Ggx surface = ggx(p);
+    const Real part = share(f, p, toNext).value, z = std::abs(toNext.z);
+    return {grey(part * z * facetValue(surface, f, p.toPrev, toNext)),
+            part * facetPdf(surface, f, p.toPrev, toNext)};
   }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
@@ -42,7 +48,7 @@ class RoughDielectric final : public Brdf {
     const Ggx surface = ggx(p);
     const Vec3 h = surface.sampleVisible(p.toPrev, n.u);
     const Choice choice = choose(p, h, n.lobe);
-    const Vec3 toNext = turn(p, h, choice.reflects).direction;
+    const Vec3 toNext = bend(p, h, choice.reflects).direction;
     const Facet f =
         choice.reflects ? reflectingFacet(p.toPrev, h) : refractingFacet(p.toPrev, h, eta(p));
     const Real density = facetPdf(surface, f, p.toPrev, toNext);
@@ -57,16 +63,10 @@ class RoughDielectric final : public Brdf {
                          .specular = false};
   }
 
-  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Facet f = facetBetween(p.toPrev, toNext, eta(p));
-    if (!f.exists()) return 0;
-    return share(f, p, toNext).value * facetPdf(ggx(p), f, p.toPrev, toNext);
-  }
-
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {
     const VisibleNormal v = ggx(p).sampleVisibleDerivatives(p.toPrev, n.u);
-    return leavingDerivatives(turn(p, v.h, choose(p, v.h, n.lobe).reflects), v);
+    return leavingDerivatives(bend(p, v.h, choose(p, v.h, n.lobe).reflects), v);
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
@@ -79,7 +79,7 @@ class RoughDielectric final : public Brdf {
   }
 
   Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return toNext.z < 0 ? sqr(eta(p)) : 1;
+    return toNext.z < 0 ? sqr(eta(p)) : 1;  // the index that is computed with
   }
 
  private:
@@ -89,16 +89,14 @@ class RoughDielectric final : public Brdf {
   };
 
   static Ggx ggx(const ScatterPoint& p) noexcept { return Ggx(p.inputs.real(kAlpha)); }
-  static Real eta(const ScatterPoint& p) noexcept {
-    return roughInterfaceEta(p.inputs.real(kIor), p.inside);
-  }
+  static Real eta(const ScatterPoint& p) noexcept { return roughEta(p); }
 
   static Choice choose(const ScatterPoint& p, Vec3 h, Real lobe) noexcept {
     const Real f = fresnelDielectric(std::max(dot(p.toPrev, h), Real(0)), eta(p)).value;
     return lobe < f ? Choice{true, f} : Choice{false, 1 - f};
   }
 
-  static Turned turn(const ScatterPoint& p, Vec3 h, bool reflects) noexcept {
+  static Deflection bend(const ScatterPoint& p, Vec3 h, bool reflects) noexcept {
     return reflects ? reflectAt(p.toPrev, h) : refractAt(p.toPrev, h, eta(p));
   }
 

@@ -192,7 +192,7 @@ class PathIntegrator final : public Integrator {
   /// there, and may bring all of a lamp. Empty: there are not just these two ways. Whether there
   /// are depends on what moved `way`, not on which of the two it is.
   static std::optional<Way> otherWay(const Vertex& v, const Way& way) noexcept {
-    if (!v.x.point.inside || !way.scatter || way.scatter->local.specular) return std::nullopt;
+    if (!v.x.point.behind || !way.scatter || way.scatter->local.specular) return std::nullopt;
     const ScatterSample& drawn = way.scatter->local;
     if (!(drawn.lobeChance < 1)) return std::nullopt;
     constexpr Real kFirst = 0, kLast = Real(0x1.fffffep-1);

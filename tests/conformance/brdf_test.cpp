@@ -47,8 +47,8 @@ TEST_CASE("no surface gives back more than it gets", "[brdf][energy]") {
   check(judge::noEnergyIsGained(brdfCases(), kEffort));
 }
 
-TEST_CASE("the matt part is no more than there is, and all where it says so", "[brdf][energy]") {
-  check(judge::mattIsNoMoreThanThereIs(brdfCases(), kEffort));
+TEST_CASE("the diffuse part is no more than there is, and all where it says so", "[brdf][energy]") {
+  check(judge::diffusePartIsNoMoreThanThereIs(brdfCases(), kEffort));
 }
 
 TEST_CASE("what loses nothing by its model gives back all", "[brdf][energy]") {
@@ -83,10 +83,10 @@ TEST_CASE("what loses nothing by its model gives back all", "[brdf][energy]") {
       brdfCase("phong", {{"specular", white}, {"exponent", numberValue(1e6)}}),
   };
   for (const BrdfCase& c : smooth)
-    for (const bool inside : {false, true}) {
+    for (const bool behind : {false, true}) {
       Rgb sum;
       for (int i = 0; i < 1 << 14; ++i)
-        if (const auto s = c.brdf->sample(c.at({0, 0, 1}, inside), numbers(r))) sum += s->weight;
+        if (const auto s = c.brdf->sample(c.at({0, 0, 1}, behind), numbers(r))) sum += s->weight;
       INFO(c.title());
       CHECK(relative(sum / Real(1 << 14), grey(1)) < 1e-3);
     }
@@ -121,16 +121,16 @@ TEST_CASE("smooth surfaces follow Snell and Fresnel", "[brdf][energy]") {
   const Vec2 middle = {Real(0.5), Real(0.5)};
   Random r(7);
   for (const Real height : {Real(1), Real(0.9), Real(0.5), Real(0.2)})
-    for (const bool inside : {false, true}) {
-      const double index = inside ? 1 / 1.5 : 1.5;
+    for (const bool behind : {false, true}) {
+      const double index = behind ? 1 / 1.5 : 1.5;
       const double f = reflected(double(height), index);
       const Vec3 toPrev = atHeight(height, r);
       for (const BrdfCase& c : clear) {
-        INFO(c.title() << " at height " << height << (inside ? " inside" : " outside"));
-        const auto low = c.brdf->sample(c.at(toPrev, inside), {0, middle});
+        INFO(c.title() << " at height " << height << (behind ? " inside" : " outside"));
+        const auto low = c.brdf->sample(c.at(toPrev, behind), {0, middle});
         REQUIRE(low);
         CHECK(low->lobeChance == Approx(f).epsilon(3e-3));
-        const auto high = c.brdf->sample(c.at(toPrev, inside), {kOneMinusEpsilon, middle});
+        const auto high = c.brdf->sample(c.at(toPrev, behind), {kOneMinusEpsilon, middle});
         REQUIRE(high);
         CHECK((high->toNext.z > 0) == (f == 1));
         if (f < 1)
@@ -139,14 +139,14 @@ TEST_CASE("smooth surfaces follow Snell and Fresnel", "[brdf][energy]") {
       }
       const BrdfCase through =
           brdfCase("phong", {{"transmission", white}, {"exponent", numberValue(1e6)}});
-      const auto s = through.brdf->sample(through.at(toPrev, inside), {0, middle});
+      const auto s = through.brdf->sample(through.at(toPrev, behind), {0, middle});
       CHECK(bool(s) == (f < 1));
       if (s)
         CHECK(length(Real(index) * cross(s->toNext, {0, 0, 1}) + cross(toPrev, {0, 0, 1})) < 2e-3);
       const BrdfCase gold = brdfCase("rough_conductor", {{"alpha", none},
                                                          {"eta", colourValue(0.143, 0.375, 1.442)},
                                                          {"k", colourValue(3.983, 2.386, 1.603)}});
-      const auto m = gold.brdf->sample(gold.at(toPrev, inside), {0, middle});
+      const auto m = gold.brdf->sample(gold.at(toPrev, behind), {0, middle});
       REQUIRE(m);
       CHECK(m->weight.r == Approx(reflected(double(height), {0.143, 3.983})).epsilon(2e-3));
       CHECK(m->weight.g == Approx(reflected(double(height), {0.375, 2.386})).epsilon(2e-3));
@@ -169,6 +169,6 @@ TEST_CASE("a surface without colour absorbs", "[brdf]") {
       const ScatterPoint p = c.at(aboveSurface(r), false);
       const auto s = c.brdf->sample(p, numbers(r));
       REQUIRE((!s || isBlack(s->weight)));
-      REQUIRE(isBlack(c.brdf->eval(p, anywhere(r))));
+      REQUIRE(isBlack(c.brdf->f(p, anywhere(r))));
     }
 }

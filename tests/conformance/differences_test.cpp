@@ -84,23 +84,19 @@ class Seams : public Brdf {
  public:
   mutable int askedBelow = 0;
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     askedBelow += !(p.toPrev.z > 0);
-    return grey(p.toPrev.z * std::abs(toNext.z));
+    return {grey(p.toPrev.z * sqr(toNext.z)), 1};
   }
-  Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 1; }
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     askedBelow += !(p.toPrev.z > 0);
     if (n.u.x >= Real(0.9) && n.u.x < 1) return std::nullopt;
     const Vec2 u = {std::clamp(n.u.x, Real(0), Real(1)), std::clamp(n.u.y, Real(0), Real(1))};
-    return ScatterSample{.toNext = normalize(Vec3{bent(u.x, Real(0.3)), bent(u.y, Real(0.6)), 1}),
-                         .weight = {},
-                         .pdf = 1,
-                         .lobePdf = 1,
-                         .lobeChance = 1,
-                         .lobe = u.y < Real(0.6) ? 0 : 1,
-                         .specular = false};
+    auto s =
+        ScatterSample::only(normalize(Vec3{bent(u.x, Real(0.3)), bent(u.y, Real(0.6)), 1}), {}, 1);
+    s.lobe = u.y < Real(0.6) ? 0 : 1;
+    return s;
   }
   /// By one of the two numbers, by hand; `side` -1: what it is left of a bend.
   static Vec3 slope(Vec2 u, int k, Real side = 1) {
@@ -210,7 +206,7 @@ TEST_CASE("differences of log f are the gradients by hand", "[brdf][differences]
     if (r.number() < Real(0.5))
       if (const auto s = c.brdf->sample(p, n)) toNext = s->toNext;
     const LogGradient found = Bare(*c.brdf).logGradient(p, toNext);
-    if (!(luminance(c.brdf->eval(p, toNext)) > Real(1e-30))) return;
+    if (!(luminance(c.brdf->f(p, toNext)) > Real(1e-30))) return;
     const LogGradient expected = c.brdf->logGradient(p, toNext);
     const auto see = [&](Vec3 unit, Vec3 a, Vec3 b) {
       b -= dot(unit, b) * unit;  // by hand, a gradient may have a part that no tangent sees

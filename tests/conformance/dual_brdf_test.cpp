@@ -72,7 +72,7 @@ Agreement agreement(const std::string& plugin, const Skip& skip) {
       const Vec3 x = hand.dPrev * along, y = dual.dPrev * along;
       a.dPrev.see(error(x, y, std::max(1.0, sizeOf(y)), allowed), line("dPrev", x, y));
     }
-    const double f = luminance(c.brdf->eval(p, toNext));
+    const double f = luminance(c.brdf->f(p, toNext));
     if (!(f > 1e-25) || skip(p, n)) return;
     const double l = double(twin.logValue(p, lifted(p.toPrev), lifted(toNext)));
     a.value.see(std::abs(std::log(f) - l) / (allowed * std::max(1.0, std::abs(l))),

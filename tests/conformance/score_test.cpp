@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gradient of the score F/p, which the SDK takes from gradients of f and differences of pdf(),
-// held against another route: at an event F/p is the weight that sample() returns.
+// The gradient of the score F/p, which the SDK takes from gradients of f and differences of
+// evaluate().pdf, held against another route: at an event F/p is the weight that sample() returns.
 #include <vestige/footprint/score.h>
 
 #include "support/brdf_events.h"
@@ -37,7 +37,7 @@ TEST_CASE("the score changes as the weight of samples does", "[conformance][foot
         const ScatterJacobian j = c.brdf->sampleDerivatives(p, n);
         const auto logWeight = [&](Vec3 toPrev, Vec2 u) -> std::optional<Real> {
           if (!(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1 && toPrev.z > 0)) return std::nullopt;
-          const auto t = c.brdf->sample({toPrev, p.inside, p.inputs}, {n.lobe, u});
+          const auto t = c.brdf->sample(differences::facing(p, toPrev), {n.lobe, u});
           if (!t || t->lobe != s->lobe) return std::nullopt;
           return std::log(luminance(t->weight));
         };

@@ -71,7 +71,7 @@ class Experiment {
                                         {"transmission", colourValue(0, 0, 0)}});
     x_.brdf = brdf_.get(), x_.toPrev = -arriving_;
     x_.frame = Frame::around({0, 0, 1}), x_.geometricNormal = {0, 0, 1};
-    x_.point = {x_.frame.toLocal(x_.toPrev), false, Inputs(inputs_.data())};
+    x_.point = {.toPrev = x_.frame.toLocal(x_.toPrev), .inputs = Inputs(inputs_.data())};
   }
 
   /// Mean over the rays of one pixel; rays that miss the wall count as black.

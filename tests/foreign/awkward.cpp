@@ -17,11 +17,10 @@ class Awkward final : public Brdf {
                        vec3("v", {1, 2, 3}).need()},
             .inputs = {}};
   }
-  Rgb eval(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+  ScatterValue evaluate(const ScatterPoint&, Vec3) const noexcept override { return {}; }
   std::optional<ScatterSample> sample(const ScatterPoint&, ScatterNumbers) const noexcept override {
     return std::nullopt;
   }
-  Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 0; }
 };
 
 }  // namespace

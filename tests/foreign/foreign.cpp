@@ -23,5 +23,6 @@ extern "C" __attribute__((visibility("default"))) const VestigePlugin vestige_pl
 extern "C" const VestigePlugin vestige_plugin = {
     FOREIGN_MAGIC, FOREIGN_SIZE, FOREIGN_MAJOR, ::vestige::kSdkMinor,
     FOREIGN_TAG,   "brdf",       "foreign",     "1.0",
-    nullptr,       nullptr,      nullptr,       0};
+    nullptr,       nullptr,      nullptr,       0,
+    nullptr};
 #endif

@@ -22,11 +22,10 @@ class Throws final : public Brdf {
     throw 42;
   }
 
-  Rgb eval(const ScatterPoint&, Vec3) const noexcept override { return {}; }
+  ScatterValue evaluate(const ScatterPoint&, Vec3) const noexcept override { return {}; }
   std::optional<ScatterSample> sample(const ScatterPoint&, ScatterNumbers) const noexcept override {
     return std::nullopt;
   }
-  Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 0; }
 
  private:
   /// An address that nothing is at; the compiler does not know.

@@ -27,7 +27,7 @@ judge::Judgement judgedSample(How how) {
 }
 
 const Settings kGlossy = {{"specular", kGrey}, {"exponent", numberValue(8)}};
-const Settings kMatt = {{"diffuse", kGrey}};
+const Settings kDiffuse = {{"diffuse", kGrey}};
 const Settings kRough = {{"alpha", numberValue(0.3)}};
 
 void checkBuiltIn(unsigned seed) {
@@ -45,9 +45,9 @@ void checkBuiltIn(unsigned seed) {
 
 TEST_CASE("judge: pdf() that is wrong", "[judge][brdf]") {
   const judge::Judgement j = judged<HalfPdf>("phong", kGlossy);
-  checkBlamed(j, "pdf()");
-  CHECK_THAT(failures(j), containsText("times as often as pdf() says"));
-  checkBlamed(judged<UniformPdf>("lambert", kMatt), "pdf()");
+  checkBlamed(j, "evaluate().pdf");
+  CHECK_THAT(failures(j), containsText("times as often as evaluate().pdf says"));
+  checkBlamed(judged<UniformPdf>("lambert", kDiffuse), "evaluate().pdf");
 }
 
 TEST_CASE("judge: sample() that is wrong", "[judge][brdf]") {
@@ -55,23 +55,23 @@ TEST_CASE("judge: sample() that is wrong", "[judge][brdf]") {
               "sample().weight");
   checkBlamed(judgedSample([](ScatterSample& s) { s.lobePdf = s.pdf / 2; }), "sample().lobePdf");
   checkBlamed(judgedSample([](ScatterSample& s) { s.pdf = s.pdf * Real(1.1); }), "sample().pdf");
-  checkBlamed(judged<BiasedSample>("lambert", kMatt), "sample()");
+  checkBlamed(judged<BiasedSample>("lambert", kDiffuse), "sample()");
 }
 
 TEST_CASE("judge: derivatives that are wrong", "[judge][brdf]") {
   checkBlamed(judged<WrongSign>("phong", kGlossy), "sampleDerivatives().du");
   checkBlamed(judged<ForgottenPrev>("phong", kGlossy), "sampleDerivatives().dPrev");
-  checkBlamed(judged<PolarPole>("lambert", kMatt), "sampleDerivatives().du");
+  checkBlamed(judged<PolarPole>("lambert", kDiffuse), "sampleDerivatives().du");
   checkBlamed(judged<WrongLogGradient>("rough_conductor", kRough), "logGradient()");
 }
 
 TEST_CASE("judge: values that are wrong", "[judge][brdf]") {
   checkBlamed(judged<SwappedEta>("rough_dielectric", kRough), "etaScale()");
   checkBlamed(judged<SwappedEta>("glass", {}), "etaScale()");
-  checkBlamed(judged<EnergyGain>("phong", kGlossy), "eval()");
-  checkBlamed(judged<OneWay>("phong", kGlossy), "eval()");
-  checkBlamed(judged<NanAtGrazing>("phong", kGlossy), "eval()");
-  checkBlamed(judged<TooMatt>("lambert", kMatt), "matt()");
+  checkBlamed(judged<EnergyGain>("phong", kGlossy), "evaluate().fCos");
+  checkBlamed(judged<OneWay>("phong", kGlossy), "evaluate().fCos");
+  checkBlamed(judged<NanAtGrazing>("phong", kGlossy), "evaluate().fCos");
+  checkBlamed(judged<TooDiffuse>("lambert", kDiffuse), "diffuse()");
 }
 
 TEST_CASE("judge: a state that threads share", "[judge][brdf]") {

@@ -12,15 +12,12 @@ namespace vestige::test {
 class AsGood : public Brdf {
  public:
   explicit AsGood(std::shared_ptr<const Brdf> good) : good(std::move(good)) {}
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return good->eval(p, toNext);
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    return good->evaluate(p, toNext);
   }
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     return good->sample(p, n);
-  }
-  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return good->pdf(p, toNext);
   }
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {
@@ -29,7 +26,7 @@ class AsGood : public Brdf {
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     return good->logGradient(p, toNext);
   }
-  MattPart matt(const ScatterPoint& p) const noexcept override { return good->matt(p); }
+  DiffusePart diffuse(const ScatterPoint& p) const noexcept override { return good->diffuse(p); }
   Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     return good->etaScale(p, toNext);
   }
@@ -40,14 +37,18 @@ class AsGood : public Brdf {
 
 struct HalfPdf final : AsGood {
   using AsGood::AsGood;
-  Real pdf(const ScatterPoint& p, Vec3 d) const noexcept override { return good->pdf(p, d) / 2; }
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 d) const noexcept override {
+    ScatterValue v = good->evaluate(p, d);
+    v.pdf = v.pdf / 2;
+    return v;
+  }
 };
 
 /// Both densities alike, but of the hemisphere's uniform map.
 struct UniformPdf final : AsGood {
   using AsGood::AsGood;
-  Real pdf(const ScatterPoint&, Vec3 d) const noexcept override {
-    return d.z > 0 ? 1 / (2 * kPi) : 0;
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 d) const noexcept override {
+    return {good->evaluate(p, d).fCos, d.z > 0 ? 1 / (2 * kPi) : 0};
   }
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
@@ -128,7 +129,10 @@ struct SwappedEta final : AsGood {
 /// Too bright everywhere, consistently.
 struct EnergyGain final : AsGood {
   using AsGood::AsGood;
-  Rgb eval(const ScatterPoint& p, Vec3 d) const noexcept override { return 2 * good->eval(p, d); }
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 d) const noexcept override {
+    const ScatterValue v = good->evaluate(p, d);
+    return {2 * v.fCos, v.pdf};
+  }
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     auto s = good->sample(p, n);
@@ -140,8 +144,9 @@ struct EnergyGain final : AsGood {
 /// Darker where toPrev is low, but not where toNext is.
 struct OneWay final : AsGood {
   using AsGood::AsGood;
-  Rgb eval(const ScatterPoint& p, Vec3 d) const noexcept override {
-    return p.toPrev.z * good->eval(p, d);
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 d) const noexcept override {
+    const ScatterValue v = good->evaluate(p, d);
+    return {p.toPrev.z * v.fCos, v.pdf};
   }
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
@@ -153,9 +158,10 @@ struct OneWay final : AsGood {
 
 struct NanAtGrazing final : AsGood {
   using AsGood::AsGood;
-  Rgb eval(const ScatterPoint& p, Vec3 d) const noexcept override {
-    const Rgb f = good->eval(p, d);
-    return p.toPrev.z < Real(1e-7) ? f * std::numeric_limits<Real>::quiet_NaN() : f;
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 d) const noexcept override {
+    ScatterValue v = good->evaluate(p, d);
+    if (p.toPrev.z < Real(1e-7)) v.fCos = v.fCos * std::numeric_limits<Real>::quiet_NaN();
+    return v;
   }
 };
 
@@ -182,9 +188,11 @@ struct WrongLogGradient final : AsGood {
   }
 };
 
-struct TooMatt final : AsGood {
+struct TooDiffuse final : AsGood {
   using AsGood::AsGood;
-  MattPart matt(const ScatterPoint&) const noexcept override { return {grey(Real(0.9)), false}; }
+  DiffusePart diffuse(const ScatterPoint&) const noexcept override {
+    return {grey(Real(0.9)), false};
+  }
 };
 
 }  // namespace vestige::test

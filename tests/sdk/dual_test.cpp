@@ -34,13 +34,13 @@ class Glossy final : public DualBrdf<Glossy> {
     return T(kExponent) * log(toNext.z * toPrev.z - toNext.x * toPrev.x - toNext.y * toPrev.y);
   }
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return grey(std::pow(std::max(dot(mirror(p.toPrev), toNext), Real(0)), kExponent));
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    const Real f = std::pow(std::max(dot(mirror(p.toPrev), toNext), Real(0)), kExponent);
+    return {grey(std::abs(toNext.z) * f), 0};
   }
   std::optional<ScatterSample> sample(const ScatterPoint&, ScatterNumbers) const noexcept override {
     return std::nullopt;
   }
-  Real pdf(const ScatterPoint&, Vec3) const noexcept override { return 0; }
 };
 
 }  // namespace
@@ -85,7 +85,7 @@ TEST_CASE("derivatives by dual numbers equal those by hand", "[dual]") {
       const Vec3 hand = Frame::around(axis).toWorld(local.du.c[k]);
       CHECK(length(j.du.c[k] - hand) < kTight * std::max(Real(1), length(hand)));
     }
-    if (isBlack(brdf.eval(p, toNext))) continue;
+    if (isBlack(brdf.f(p, toNext))) continue;
     const LogGradient g = brdf.logGradient(p, toNext);
     const Real slope = Glossy::kExponent / dot(axis, toNext);
     const Vec3 prev = projection(p.toPrev) * (slope * mirror(toNext));

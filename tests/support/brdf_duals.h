@@ -79,9 +79,7 @@ class DualPhong : public Twin<DualPhong> {
 
  private:
   static Real exponent(const ScatterPoint& p) noexcept { return p.inputs.real(1); }
-  static Real eta(const ScatterPoint& p) noexcept {
-    return interfaceEta(p.inputs.real(3), p.inside);
-  }
+  static Real eta(const ScatterPoint& p) noexcept { return p.eta(); }
   static Rgb fraction(const ScatterPoint& p, bool reflected) noexcept {
     const Rgb s = p.inputs.rgb(0), t = p.inputs.rgb(2), own = reflected ? s : t;
     const auto fit = [](Real x, Real total) { return x / std::max(total, Real(1)); };

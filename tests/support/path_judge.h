@@ -143,7 +143,8 @@ inline void judgeConnection(const PathTracer& tracer, const Light& light, LightM
     const auto drawn = light.sample(from, u);
     if (!v.x.brdf || !drawn || !differsSmoothly(u, Real(3 * kPathStep))) return;
     const auto f = [&](const TracedVertex& at, const LightSample& s) -> std::optional<Real> {
-      const Real value = luminance(evalScatter(at.x, s.hit.toLight)) * lightFactor(s, measure);
+      const Real value =
+          luminance(evaluateScatter(at.x, s.hit.toLight).fCos) * lightFactor(s, measure);
       return value > Real(1e-12) ? std::optional(std::log(value)) : std::nullopt;
     };
     const bool isGrazing = std::abs(dot(v.x.frame.n, drawn->hit.toLight)) < Real(0.05) ||

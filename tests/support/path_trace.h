@@ -67,7 +67,7 @@ class PathTracer {
       const Vec3 next = normalize(v.x.frame.toWorld(v.drawn->toNext));
       footprint.scatter(*hit, v.x, {next, {}, *v.drawn}, numbers);
       if (!v.drawn->specular)
-        logF += std::log(luminance(v.x.brdf->eval(v.x.point, v.drawn->toNext)) *
+        logF += std::log(luminance(v.x.brdf->f(v.x.point, v.drawn->toNext)) *
                          std::abs(v.drawn->toNext.z));
       // From the surface itself: a start off it would be another path.
       ray = {hit->position, next, kSkip, kInfinity};

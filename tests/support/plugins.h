@@ -5,7 +5,7 @@
 //     for (const LoadedPlugin& plugin : pluginsOfKind("brdf")) {
 //       const auto brdf = make<Brdf>(plugin, {});
 //       const InputBuffer inputs = inputsFor(*plugin.schema, {{"exponent", numberValue(40)}});
-//       ... brdf->eval({toPrev, false, Inputs(inputs.data())}, toNext) ...
+//       ... brdf->evaluate({.toPrev = toPrev, .inputs = Inputs(inputs.data())}, toNext) ...
 //     }
 #pragma once
 #include <vestige/abi.h>

@@ -24,6 +24,8 @@ extern "C" struct VestigeError {
 /// SDK 5: Brdf::matt(); SceneView::patchPoint(); Preparation has a time and warnings; Aovs of
 /// elements; Integrator::usesJacobian().
 /// SDK 6: PathRecord::saw().
+/// SDK 7: Brdf::evaluate() in place of eval() and pdf(), diffuse() in place of matt(); ScatterPoint
+/// has both refractive indices; batches; BRDFs, pigments and media inside other plugins.
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended
@@ -38,12 +40,13 @@ extern "C" struct VestigePlugin {
   void* (*create)(const void* values, void* host, VestigeError* error);
   void (*destroy)(void*);  ///< takes what create() gave [main thread]
   std::uint32_t lacks;     ///< bits, see below: derivatives left to finite differences
+  const void* batch;       ///< of a BRDF: const BrdfBatch*; else null
 };
 
 namespace vestige {
 
 inline constexpr std::uint64_t kPluginMagic = 0x3145474954534556;  ///< "VESTIGE1", little endian
-inline constexpr std::uint32_t kSdkMajor = 6, kSdkMinor = 0;
+inline constexpr std::uint32_t kSdkMajor = 7, kSdkMinor = 0;
 
 /// Bits of VestigePlugin::lacks: methods that the plugin's class leaves as its interface has them.
 inline constexpr std::uint32_t kLacksSampleDerivatives = 1, kLacksLogGradient = 2;
@@ -51,7 +54,8 @@ inline constexpr std::uint32_t kLacksSampleDerivatives = 1, kLacksLogGradient = 
 #define VESTIGE_TEXT_(x) #x
 #define VESTIGE_TEXT(x) VESTIGE_TEXT_(x)
 
-/// Compiler versions are left out on purpose: gcc and clang agree on all that is named here.
+/// Compiler versions are left out on purpose: gcc and clang agree on all that is named here. The
+/// SDK's version has fields of its own.
 inline constexpr const char* kAbiTag =
 #if defined(_LIBCPP_VERSION)
     "libc++"
@@ -66,6 +70,6 @@ inline constexpr const char* kAbiTag =
 #else
         " real=float"
 #endif
-    " pointer=" VESTIGE_TEXT(__SIZEOF_POINTER__) " sdk=2";
+    " pointer=" VESTIGE_TEXT(__SIZEOF_POINTER__);
 
 }  // namespace vestige

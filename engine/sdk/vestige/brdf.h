@@ -4,37 +4,52 @@
 #include <vestige/math.h>
 #include <optional>
 
-/// Scattering at one surface point: the whole contract between a BRDF plugin and the engine.
+/// Scattering at one surface point: the whole contract between a BRDF plugin and the engine. The
+/// word BRDF covers transmission here, as in the method's paper: f is defined for both sides.
 ///
 /// Said once, true of every method below:
 ///   * Directions are unit vectors in the local shading frame and leave the surface. The frame
 ///   faces
 ///     the known direction: toPrev.z > 0 always; toNext.z < 0 is the far side. The engine bends a
 ///     shading normal that looks away, and discards a toNext that lies on the other side of the
-///     geometric surface than its z says (in eval, pdf and sample alike).
+///     geometric surface than its z says (in evaluate() and sample() alike).
 ///   * `toPrev` is the known direction, `toNext` the sampled one; neither means eye or light. f is
 ///     defined for FLUX travelling prev -> next: without the 1/eta^2 of radiance. The engine
 ///     applies etaScale() on eye paths and the shading-normal correction on particle paths.
 ///   * Densities are per steradian of solid angle (1/sr). Colours are linear, in rendering space.
-///   * Textures are none of a BRDF's business: it declares inputs in its schema, and finds them in
-///     `inputs`, already evaluated and filtered over the path's footprint.
-///   * How the frame itself turns on a curved surface is the footprint module's business.
+///   * A BRDF looks no texture up: it declares inputs in its schema, and finds them in `inputs`,
+///     evaluated and filtered over the path's footprint.
+///   * It does not know what it lies on: the engine says both refractive indices, and how the frame
+///     turns on a curved surface is the footprint module's work.
 ///   * Methods are const, thread-safe and noexcept; they allocate nothing. "No sample" is an
 ///     ordinary value, not an error. Unsuitable parameters were refused by the schema before.
 namespace vestige {
 
 /// The point as a BRDF sees it.
 struct ScatterPoint {
-  Vec3 toPrev;    ///< unit, local, z > 0
-  bool inside;    ///< toPrev runs inside the closed solid: behind the surface's own normal
-  Inputs inputs;  ///< in the order of the schema
+  Vec3 toPrev;          ///< unit, local, z > 0
+  bool behind = false;  ///< toPrev runs behind the surface's own normal: inside, if it is a solid
+  Real etaPrev = 1;     ///< refractive index on toPrev's side, >= 0.1
+  Real etaNext = 1;     ///< ... and beyond the surface. The same unless the schema has an input
+                        ///< marked .refractiveIndex()
+  Inputs inputs = {};   ///< in the order of the schema
+
+  /// n_prev / n_next.
+  Real eta() const noexcept { return etaPrev / etaNext; }
 };
 
-/// The numbers a direction is drawn with: `lobe` picks among alternatives and does nothing else (it
-/// has no derivative), `u` moves the direction smoothly.
+/// The numbers that a direction is drawn with: `lobe` picks among alternatives and does nothing
+/// else (it has no derivative), `u` moves the direction smoothly.
 struct ScatterNumbers {
   Real lobe;  ///< [0,1)
   Vec2 u;     ///< [0,1)^2
+};
+
+/// Scattering between two given directions. Phase functions and hair use the same struct: there the
+/// cosine is 1, or whatever their measure has.
+struct ScatterValue {
+  Rgb fCos;      ///< f |cos toNext|, 1/sr, finite, >= 0, without etaScale
+  Real pdf = 0;  ///< density of sample() at toNext, 1/sr
 };
 
 struct ScatterSample {
@@ -47,6 +62,15 @@ struct ScatterSample {
   int lobe;         ///< which one it was; differences are taken only within one lobe
   bool specular;    ///< no new random variable (mirror, smooth glass); then weight = f |cos| /
                     ///< lobeChance
+
+  /// A sample of the only lobe that there is.
+  static ScatterSample only(Vec3 toNext, Rgb weight, Real pdf) noexcept {
+    return {toNext, weight, pdf, pdf, 1, 0, false};
+  }
+  /// A sample of one specular lobe; `energy` is f |cos|, not yet divided by the chance.
+  static ScatterSample mirror(Vec3 toNext, Rgb energy, Real lobeChance = 1, int lobe = 0) noexcept {
+    return {toNext, energy / lobeChance, 1, 1, lobeChance, lobe, true};
+  }
 };
 
 /// First derivatives of the sampled direction, at fixed lobe. A differential travels by
@@ -62,14 +86,14 @@ inline ScatterJacobian scatterJacobian(const Frame& toPrev, const Four3& d) noex
           .dPrev = outer(column(d, 2), toPrev.s) + outer(column(d, 3), toPrev.t)};
 }
 
-/// Gradient of log f (luminance of f): the relative change of the contribution, 1/rad [PD01 Eq.
-/// 12].
+/// Gradient of log f (luminance of f, without the cosine): the relative change of the contribution,
+/// 1/rad [PD01 Eq. 12].
 struct LogGradient {
   Vec3 dPrev, dNext;  ///< [3] each
 };
 
-/// What a BRDF scatters evenly over the hemisphere of toPrev: albedo / pi of f.
-struct MattPart {
+/// The part of f that scatters evenly over the hemisphere of toPrev: f = albedo / pi.
+struct DiffusePart {
   Rgb albedo;          ///< [0, 1]; black: there is none
   bool isAll = false;  ///< nothing else is scattered
 };
@@ -78,16 +102,15 @@ class Brdf {
  public:
   virtual ~Brdf() = default;
 
-  /// f(toPrev, toNext) in 1/sr, without the cosine. Zero where nothing is scattered.
-  virtual Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept = 0;
+  /// f |cos toNext| and the density of sample() at toNext. Both are zero where nothing is scattered
+  /// or only a specular lobe is. The density integrates over the sphere to
+  /// 1 - P(nullopt or specular).
+  virtual ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept = 0;
 
   /// Draws toNext; nullopt where the model absorbs. Its derivative is asked for next, so the map
   /// from u has no pole where pdf > 0: prefer the concentric to the polar disk.
   virtual std::optional<ScatterSample> sample(const ScatterPoint& p,
                                               ScatterNumbers n) const noexcept = 0;
-
-  /// Density of sample() at toNext, 1/sr. Integrates over the sphere to 1 - P(nullopt or specular).
-  virtual Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept = 0;
 
   /// Derivatives of the map inside sample(), for the numbers that it was called with [PD01 2.3].
   /// For every lobe that is not specular: |du.c0 x du.c1| lobePdf = 1. By default: finite
@@ -95,16 +118,25 @@ class Brdf {
   virtual ScatterJacobian sampleDerivatives(const ScatterPoint& p, ScatterNumbers n) const noexcept;
 
   /// For any toNext, sampled or chosen by a light [PD01 Sec. 3.2]. Zero where f is zero. By
-  /// default: finite differences of eval(), and a note to the user.
+  /// default: finite differences of evaluate(), and a note to the user.
   virtual LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept;
 
-  /// Its matt part. Integrators that keep light on surfaces keep this part's, and leave f less
-  /// albedo / pi to rays (a little below zero here and there is well).
-  virtual MattPart matt(const ScatterPoint&) const noexcept { return {}; }
+  /// Its diffuse part. Integrators that keep light on surfaces keep this part's, and leave f less
+  /// albedo / pi to rays (slightly negative values here and there are allowed).
+  virtual DiffusePart diffuse(const ScatterPoint&) const noexcept { return {}; }
 
-  /// Radiance crosses an interface scaled by (n_prev / n_next)^2, flux does not [Vea97 5.2]. 1
-  /// where toNext stays on its side. Reciprocity then reads f(b, a) = etaScale(a, b) f(a, b).
-  virtual Real etaScale(const ScatterPoint&, Vec3 /*toNext*/) const noexcept { return 1; }
+  /// Radiance that crosses an interface is scaled by (n_prev / n_next)^2, flux is not [Vea97 5.2].
+  /// 1 where toNext stays on its side. Reciprocity then reads f(b, a) = etaScale(a, b) f(a, b).
+  virtual Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept {
+    return toNext.z < 0 ? sqr(p.eta()) : 1;
+  }
+
+  /// f(toPrev, toNext) alone, 1/sr, from evaluate(): for tests and tools. Zero at toNext.z = 0.
+  Rgb f(const ScatterPoint& p, Vec3 toNext) const noexcept {
+    return toNext.z != 0 ? evaluate(p, toNext).fCos / std::abs(toNext.z) : Rgb{};
+  }
+  /// The density alone, 1/sr.
+  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept { return evaluate(p, toNext).pdf; }
 };
 
 }  // namespace vestige

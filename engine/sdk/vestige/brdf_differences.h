@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a BRDF answers that writes no derivatives of its own: differences of its sample() and
-// eval(). The engine notes once that a scene uses such a plugin.
+// The default derivatives of a BRDF: differences of its sample() and evaluate(). The engine notes
+// once that a scene uses such a plugin.
 //
 // A lobe built in a frame around a moving axis turns that frame as its routine likes, and without
 // bound near the frame's own singularity. Derivatives are free of that spin [MATH 1.9]: the frame
@@ -23,6 +23,12 @@ inline Vec3 turned(Vec3 unit, Vec3 along, Real angle) noexcept {
   return std::cos(angle) * unit + std::sin(angle) * along;
 }
 
+/// The same point seen along another toPrev.
+inline ScatterPoint facing(ScatterPoint p, Vec3 toPrev) noexcept {
+  p.toPrev = toPrev;
+  return p;
+}
+
 /// sample() as a map that stays within one lobe and one kind of event.
 class LobeMap {
  public:
@@ -43,7 +49,7 @@ class LobeMap {
   /// For another toPrev, without the frame's spin; nullopt below the horizon and in other lobes.
   std::optional<Vec3> byPrev(Vec3 toPrev) const noexcept {
     if (!(toPrev.z > 0)) return std::nullopt;
-    const ScatterPoint q = {toPrev, p_.inside, p_.inputs};
+    const ScatterPoint q = facing(p_, toPrev);
     const auto there = within(q, n_.u);
     if (!there || !frame_) return there;
     const auto frame = frameAt(q);
@@ -120,15 +126,12 @@ LogGradient ofLog(const Value& value, const Brdf& brdf, const ScatterPoint& p,
           derivative([&](Real x) { return at(turned(from, along, x)); }, *here, h, noise) * along;
     return sum;
   };
-  return {gradient(p.toPrev,
-                   [&](Vec3 d) {
-                     return logValue(ScatterPoint{d, p.inside, p.inputs}, toNext);
-                   }),
+  return {gradient(p.toPrev, [&](Vec3 d) { return logValue(facing(p, d), toNext); }),
           gradient(toNext, [&](Vec3 d) { return logValue(p, d); })};
 }
 
-inline LogGradient ofLogEval(const Brdf& brdf, const ScatterPoint& p, Vec3 toNext) noexcept {
-  const auto f = [&](const ScatterPoint& q, Vec3 next) { return luminance(brdf.eval(q, next)); };
+inline LogGradient ofLogF(const Brdf& brdf, const ScatterPoint& p, Vec3 toNext) noexcept {
+  const auto f = [&](const ScatterPoint& q, Vec3 next) { return luminance(brdf.f(q, next)); };
   return ofLog(f, brdf, p, toNext);
 }
 inline LogGradient ofLogPdf(const Brdf& brdf, const ScatterPoint& p, Vec3 toNext) noexcept {
@@ -145,7 +148,7 @@ inline ScatterJacobian Brdf::sampleDerivatives(const ScatterPoint& p,
   return differences::ofSample(*this, p, n);
 }
 inline LogGradient Brdf::logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept {
-  return differences::ofLogEval(*this, p, toNext);
+  return differences::ofLogF(*this, p, toNext);
 }
 
 }  // namespace vestige

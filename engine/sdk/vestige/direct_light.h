@@ -70,17 +70,15 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
                           const TowardsLight& towards, Real samples, Real scattered) noexcept {
   if (!towards.sample) return {};
   const LightSample& drawn = *towards.sample;
-  const Rgb f = evalScatter(x, drawn.hit.toLight);
-  if (isBlack(f) || isBlack(drawn.radiance)) return {};
+  const ScatterValue value = evaluateScatter(x, drawn.hit.toLight);
+  if (isBlack(value.fCos) || isBlack(drawn.radiance)) return {};
   ++c.counters.shadowRays;
   const Real visible = c.scene.transmittance(shadowRay(s, drawn.hit.toLight, drawn.hit.distance));
   if (visible == 0) return {};
   const Real density = towards.chance * drawn.pdf;
   const Real weight =
-      towards.light->isDelta()
-          ? 1
-          : powerHeuristic(samples * density, scattered * scatterPdf(x, drawn.hit.toLight));
-  return (visible * weight / density) * f * drawn.radiance;
+      towards.light->isDelta() ? 1 : powerHeuristic(samples * density, scattered * value.pdf);
+  return (visible * weight / density) * value.fCos * drawn.radiance;
 }
 
 /// Next-event estimation: the mean of `samples` of these is the direct light.

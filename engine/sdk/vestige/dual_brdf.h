@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A BRDF that writes its sampling routine and log f once and has both derivatives for nothing.
+// A BRDF whose author writes the sampling routine and log f once, as templates over the number
+// type, and gets both derivatives by forward-mode differentiation. The class derives from
+// DualBrdf<Itself> and has, besides evaluate() and sample() as in brdf.h (sample() may call
+// direction()):
 //
-//     class Velvet final : public DualBrdf<Velvet> {
-//      public:
-//       template <class T>   // the direction of one lobe, for numbers that do not end the path
-//       TVec3<T> direction(const ScatterPoint& p, const TVec3<T>& toPrev, Real lobe,
-//                          const TVec2<T>& u) const noexcept;
-//       template <class T>   // log of the luminance of f; asked only where f > 0
-//       T logValue(const ScatterPoint& p, const TVec3<T>& toPrev,
-//                  const TVec3<T>& toNext) const noexcept;
-//       ...                  // and eval(), sample(), pdf() as in brdf.h; sample() may call
-//       direction()
-//     };
+//     template <class T>   // the direction of one lobe, for numbers that do not end the path
+//     TVec3<T> direction(const ScatterPoint& p, const TVec3<T>& toPrev, Real lobe,
+//                        const TVec2<T>& u) const noexcept;
+//     template <class T>   // log of the luminance of f; asked only where f > 0
+//     T logValue(const ScatterPoint& p, const TVec3<T>& toPrev,
+//                const TVec3<T>& toNext) const noexcept;
 #pragma once
 #include <vestige/brdf.h>
 #include <vestige/dual.h>
@@ -31,7 +29,7 @@ class DualBrdf : public Brdf {
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    if (isBlack(eval(p, toNext))) return {};
+    if (isBlack(evaluate(p, toNext).fCos)) return {};
     const Frame a = Frame::around(p.toPrev), b = Frame::around(toNext);
     const Dual l = self().logValue(p, moving(p.toPrev, a.s, a.t, 0), moving(toNext, b.s, b.t, 2));
     return {l.d[0] * a.s + l.d[1] * a.t, l.d[2] * b.s + l.d[3] * b.t};

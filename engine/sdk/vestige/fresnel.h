@@ -14,13 +14,6 @@
 
 namespace vestige {
 
-/// n_prev / n_next across the surface of a solid with index `ior` in air, seen from outside or from
-/// within. A texture may say anything; below 0.1 is taken as 0.1.
-inline Real interfaceEta(Real ior, bool inside) noexcept {
-  const Real n = std::max(ior, Real(0.1));
-  return inside ? n : 1 / n;
-}
-
 /// A reflected (or transmitted) fraction of unpolarised light, in [0,1], and its derivative by c.
 struct Fresnel {
   Real value, slope;
@@ -95,9 +88,9 @@ inline Fresnel fresnelSchlick(Real c, Real f0) noexcept {
   return {f0 + (1 - f0) * x2 * x2 * x, -5 * (1 - f0) * x2 * x2};
 }
 
-/// A direction that left a facet, mu normal - eta prev, and how it moves with normal and prev:
+/// A reflected or refracted direction, mu normal - eta prev, and how it moves with normal and prev:
 /// mu is a function of prev . normal alone.
-struct Turned {
+struct Deflection {
   Vec3 direction;
   Vec3 prev, normal;
   Real mu, slope, eta;  ///< slope: of mu by that cosine
@@ -114,13 +107,13 @@ struct Turned {
 };
 
 /// Mirror direction [Ige99 Eq. 14].
-inline Turned reflectAt(Vec3 prev, Vec3 normal) noexcept {
+inline Deflection reflectAt(Vec3 prev, Vec3 normal) noexcept {
   const Real mu = 2 * dot(prev, normal);
   return {mu * normal - prev, prev, normal, mu, 2, 1};
 }
 
 /// Refracted direction [Ige99 Eq. 16]. Only where reflection is not total.
-inline Turned refractAt(Vec3 prev, Vec3 normal, Real eta) noexcept {
+inline Deflection refractAt(Vec3 prev, Vec3 normal, Real eta) noexcept {
   const Real c = dot(prev, normal), t = refractedCosine(c, eta);
   const Real mu = refractedShift(c, t, eta);
   const Real slope = -eta * mu / std::max(t, kMinRefractedCosine);

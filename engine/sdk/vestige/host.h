@@ -2,8 +2,10 @@
 // What the engine does for a plugin while it is created: files, images, messages.
 #pragma once
 #include <memory>
+#include <stdexcept>
 #include <string>
 
+#include <vestige/brdf.h>
 #include <vestige/pigment.h>
 
 namespace vestige {
@@ -39,6 +41,20 @@ class Texture {
   virtual Rgba mean() const noexcept = 0;
 };
 
+class Medium;
+
+/// A BRDF inside another, which asks it at its own point. Its inputs follow those of the owner.
+struct NestedBrdf {
+  std::shared_ptr<const Brdf> brdf;  ///< never null
+  int firstInput = 0;                ///< counted from the owner's first
+
+  /// The owner's point, with the inputs of this one.
+  ScatterPoint at(ScatterPoint p) const noexcept {
+    p.inputs = p.inputs.from(firstInput);
+    return p;
+  }
+};
+
 /// Handed to a plugin's constructor. [main thread]
 class Host {
  public:
@@ -51,10 +67,28 @@ class Host {
   /// The image, read once however often it is asked for; null with `error` saying why.
   virtual std::shared_ptr<const Texture> texture(const TextureRequest& request,
                                                  std::string& error) = 0;
+  /// A plugin made of a block inside the caller's own. Never null: where the block is refused, the
+  /// user has been told and the scene is not rendered. A BRDF's inputs may be textured; its owner
+  /// hands its points on by NestedBrdf::at(). Null block: a grey diffuse one.
+  virtual NestedBrdf brdf(const Block* /*block*/) { return unavailable(); }
+  /// A pigment with the transforms written inside its block.
+  virtual std::shared_ptr<const Pigment> pigment(const Block& /*block*/) { return unavailable(); }
+  virtual std::shared_ptr<const Medium> medium(const Block& /*block*/) { return unavailable(); }
+
   /// Something the user should know that does not stop the render.
   virtual void warn(Span span, const std::string& message) = 0;
-  /// Something worth knowing that is nobody's mistake; said once, however often it is told.
+  /// Something worth knowing that is not a mistake. The same message is shown once.
   virtual void note(const std::string& /*message*/) {}
+
+ private:
+  /// For hosts of tests that make no plugins.
+  struct Unavailable {
+    template <class Anything>
+    operator Anything() const {
+      throw std::runtime_error("this host makes no plugins inside others");
+    }
+  };
+  static Unavailable unavailable() { return {}; }
 };
 
 }  // namespace vestige

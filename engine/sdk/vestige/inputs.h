@@ -43,8 +43,9 @@ struct InputValue {
   Real v[4];
 };
 
-/// More inputs than any BRDF has; the engine's own (normal map, opacity) included.
-inline constexpr int kMaxInputs = 24;
+/// More inputs than any BRDF has; the engine's own (normal map, opacity) and those of the BRDFs
+/// inside it included.
+inline constexpr int kMaxInputs = 48;
 
 /// The values of Schema::inputs at one point, in that order, filtered over the path's footprint.
 /// A view: the integrator keeps the numbers (InputBuffer).
@@ -52,6 +53,8 @@ class Inputs {
  public:
   Inputs() = default;
   explicit Inputs(const InputValue* values) : values_(values) {}
+  /// Those from number `first` on: the inputs of a plugin inside another.
+  Inputs from(int first) const noexcept { return Inputs(values_ + first); }
   Real real(int i) const noexcept { return values_[i].v[0]; }
   Rgb rgb(int i) const noexcept { return {values_[i].v[0], values_[i].v[1], values_[i].v[2]}; }
 

@@ -172,22 +172,16 @@ inline Real etaScale(const Interaction& x, Vec3 local, Carries what) noexcept {
   return what == Carries::radiance && local.z < 0 ? x.brdf->etaScale(x.point, local) : Real(1);
 }
 
-/// f |cos| towards a direction, world; black where the BRDF or the geometry says no.
-inline Rgb evalScatter(const Interaction& x, Vec3 toNext,
-                       Carries what = Carries::radiance) noexcept {
+/// f |cos| towards a world direction, with all corrections, and the density of drawScatter() there.
+/// Zero where the BRDF or the geometry says no.
+inline ScatterValue evaluateScatter(const Interaction& x, Vec3 toNext,
+                                    Carries what = Carries::radiance) noexcept {
   if (!x.brdf) return {};
   const Vec3 local = x.frame.toLocal(toNext);
   if (!sidesAgree(x, toNext, local.z)) return {};
-  const Real eta = etaScale(x, local, what);
-  return std::abs(local.z) * eta * shadingCorrection(x, toNext, what) *
-         x.brdf->eval(x.point, local);
-}
-
-/// Density of drawScatter() for a direction, 1/sr.
-inline Real scatterPdf(const Interaction& x, Vec3 toNext) noexcept {
-  if (!x.brdf) return 0;
-  const Vec3 local = x.frame.toLocal(toNext);
-  return sidesAgree(x, toNext, local.z) ? x.brdf->pdf(x.point, local) : 0;
+  ScatterValue v = x.brdf->evaluate(x.point, local);
+  v.fCos = etaScale(x, local, what) * shadingCorrection(x, toNext, what) * v.fCos;
+  return v;
 }
 
 /// Draws a continuation; nullopt where the path is absorbed.

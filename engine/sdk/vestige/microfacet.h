@@ -22,18 +22,19 @@ namespace vestige {
 /// apart.
 inline constexpr Real kMinAlpha = Real(1e-4);
 
-/// A refracting facet whose two sides are nearly alike leaves no trace of its normal in the
-/// direction; an index this close to 1 is moved away from it.
+/// Where both indices are nearly the same, the direction refracted by a facet does not depend on
+/// its normal: a relative index this close to 1 is moved away from it.
 inline constexpr Real kMinIndexStep = Real(1e-3);
 
-/// interfaceEta() for facets.
-inline Real roughInterfaceEta(Real ior, bool inside) noexcept {
-  const Real n = ior >= 1 ? std::max(ior, 1 + kMinIndexStep) : std::min(ior, 1 - kMinIndexStep);
-  return interfaceEta(n, inside);
+/// n_prev / n_next for facets.
+inline Real roughEta(const ScatterPoint& p) noexcept {
+  const Real n = p.behind ? p.eta() : 1 / p.eta();  // of the far side of the normal, relative
+  const Real apart = n >= 1 ? std::max(n, 1 + kMinIndexStep) : std::min(n, 1 - kMinIndexStep);
+  return p.behind ? apart : 1 / apart;
 }
 
-/// What of a lies across unit n. As products, since I - n n^T loses the small components of what is
-/// almost along n, and those are all that a smooth surface has.
+/// The component of a perpendicular to the unit vector n, by cross products because I - n n^T loses
+/// the small components of a vector almost along n, and a smooth surface has no others.
 inline Vec3 across(Vec3 n, Vec3 a) noexcept { return cross(cross(n, a), n); }
 inline Four3 across(Vec3 n, const Four3& a) noexcept { return cross(cross(n, a), n); }
 
@@ -190,7 +191,7 @@ inline FacetGradient facetLogGradient(const Ggx& ggx, const Facet& f, Vec3 prev,
 }
 
 /// The derivatives of a direction that left a drawn normal.
-inline ScatterJacobian leavingDerivatives(const Turned& t, const VisibleNormal& n) noexcept {
+inline ScatterJacobian leavingDerivatives(const Deflection& t, const VisibleNormal& n) noexcept {
   return scatterJacobian(n.prev, t.moved(columns({}, {}, n.prev.s, n.prev.t), n.moved));
 }
 

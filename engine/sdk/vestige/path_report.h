@@ -47,7 +47,7 @@ template <int Lanes>
   if (!x.brdf || !towards.sample) return {};
   const LightHit& hit = towards.sample->hit;
   // Where f is 0 its logarithm has no slope.
-  if (isBlack(evalScatter(x, hit.toLight)) || isBlack(towards.sample->radiance)) return {};
+  if (isBlack(evaluateScatter(x, hit.toLight).fCos) || isBlack(towards.sample->radiance)) return {};
   const PathFootprint<Lanes> connected =
       f.connected(s, x, hit, towards.light->sampleDerivatives(hit.from, towards.u),
                   towards.light->logGradient(hit.from, towards.u));

@@ -2,6 +2,8 @@
 #pragma once
 #include <vestige/inputs.h>
 
+#include <optional>
+
 /// Colour that varies over a surface: image maps and procedural patterns.
 ///
 /// Said once, true of every method:
@@ -34,6 +36,14 @@ struct Lookup {
   Footprint footprint;  ///< in the same spaces as position and uv
 };
 
+/// What a pattern is before it becomes a colour: POV-Ray's number in [0,1], which a map turns into
+/// colours. Its mean over the footprint and how far it spreads there: so a map can be averaged over
+/// what the footprint sees.
+struct PatternValue {
+  Real mean;    ///< [0,1]
+  Real spread;  ///< standard deviation over the footprint; 0 at a point
+};
+
 class Pigment {
  public:
   virtual ~Pigment() = default;
@@ -44,6 +54,9 @@ class Pigment {
   /// Its mean over one period, for bounds and for what a footprint of no end would see; grey 0.5 if
   /// the pigment cannot tell.
   virtual Rgba mean() const noexcept { return {grey(Real(0.5)), 1}; }
+
+  /// The pattern behind the colours; nullopt: the pigment has none (an image).
+  virtual std::optional<PatternValue> pattern(const Lookup&) const noexcept { return std::nullopt; }
 
   /// Texels along u and v that one unit of uv spans, <0,0> where there are none: `inspect` speaks
   /// of footprints in texels.

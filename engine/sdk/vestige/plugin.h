@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include <vestige/abi.h>
+#include <vestige/batch.h>
 #include <vestige/host.h>
 
 namespace vestige {
@@ -83,6 +84,15 @@ constexpr std::uint32_t lacks() {
   return bits;
 }
 
+/// See VestigePlugin::batch.
+template <class Interface, class Class>
+constexpr const void* batchOf() {
+  if constexpr (std::is_same_v<Interface, Brdf>)
+    return &kBrdfBatch<Class>;
+  else
+    return nullptr;
+}
+
 template <class Class>
 const Schema& schemaOf() {
   static const Schema schema = Class::schema();
@@ -108,7 +118,8 @@ const Schema& schemaOf() {
       []() -> const void* { return &::vestige::detail::schemaOf<Class>(); },            \
       &::vestige::detail::create<Interface, Class>,                                     \
       [](void* made) { delete static_cast<Interface*>(made); },                         \
-      ::vestige::detail::lacks<Interface, Class>()};
+      ::vestige::detail::lacks<Interface, Class>(),                                     \
+      ::vestige::detail::batchOf<Interface, Class>()};
 
 #ifndef VESTIGE_PLUGIN_VERSION
 #define VESTIGE_PLUGIN_VERSION "1.0"

@@ -34,13 +34,14 @@ struct Parameter {
   Value initial;  ///< the default; Kind::none: no value unless given
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool openLow = false;      ///< low itself is refused, as for a radius
-  bool required = false;     ///< a scene that leaves it out is refused
-  bool positional = false;   ///< may stand without its name, in the order of the rows
-  bool texturable = false;   ///< takes a pigment in place of a constant
-  bool isNonlinear = false;  ///< light is not linear in it: looked up at points, not averaged
-  std::string unit;          ///< "degrees", "scene units", "W/sr", ...; "" is a plain number
-  std::string help;          ///< one line
+  bool openLow = false;            ///< low itself is refused, as for a radius
+  bool required = false;           ///< a scene that leaves it out is refused
+  bool positional = false;         ///< may stand without its name, in the order of the rows
+  bool texturable = false;         ///< takes a pigment in place of a constant
+  bool isRefractiveIndex = false;  ///< of the inside of what the BRDF covers
+  bool isNonlinear = false;        ///< light is not linear in it: looked up at points, not averaged
+  std::string unit;                ///< "degrees", "scene units", "W/sr", ...; "" is a plain number
+  std::string help;                ///< one line
   std::vector<std::string> choices;
   std::string blockKind;
 
@@ -48,6 +49,12 @@ struct Parameter {
   Parameter&& positive() && { return low = 0, openLow = true, std::move(*this); }
   Parameter&& need() && { return required = true, initial = {}, std::move(*this); }
   Parameter&& place() && { return positional = true, std::move(*this); }
+  /// Marks an input as the refractive index of the inside: ScatterPoint::etaPrev and etaNext
+  /// follow.
+  Parameter&& refractiveIndex() && {
+    isRefractiveIndex = isNonlinear = true;
+    return std::move(*this);
+  }
   Parameter&& nonlinear() && { return isNonlinear = true, std::move(*this); }
   Parameter&& in(std::string u) && { return unit = std::move(u), std::move(*this); }
   Parameter&& doc(std::string h) && { return help = std::move(h), std::move(*this); }

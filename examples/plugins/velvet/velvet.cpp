@@ -47,29 +47,19 @@ class Velvet final : public DualBrdf<Velvet> {
            log(toPrev.z + toNext.z - toPrev.z * toNext.z);
   }
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     if (!(toNext.z > 0)) return {};
     const Real power = 1 / roughness(p), a = p.toPrev.z, b = toNext.z;
     const Real d =
         (2 + power) / (2 * kPi) * std::pow(sine2(lifted(p.toPrev), lifted(toNext)), power / 2);
-    return d / (4 * (a + b - a * b)) * p.inputs.rgb(kColour);
+    return {b * d / (4 * (a + b - a * b)) * p.inputs.rgb(kColour), kDensity};
   }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     const Vec3 toNext = uniformCap(n.u, 0).d;
     if (!(toNext.z > 0)) return std::nullopt;
-    return ScatterSample{.toNext = toNext,
-                         .weight = 2 * kPi * toNext.z * eval(p, toNext),
-                         .pdf = kDensity,
-                         .lobePdf = kDensity,
-                         .lobeChance = 1,
-                         .lobe = 0,
-                         .specular = false};
-  }
-
-  Real pdf(const ScatterPoint&, Vec3 toNext) const noexcept override {
-    return toNext.z > 0 ? kDensity : 0;
+    return ScatterSample::only(toNext, evaluate(p, toNext).fCos / kDensity, kDensity);
   }
 
  private:

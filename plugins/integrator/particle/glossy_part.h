@@ -9,18 +9,16 @@ class GlossyPart final : public Brdf {
  public:
   GlossyPart(const Brdf& whole, Rgb albedo) : whole_(whole), matt_(albedo / kPi) {}
 
-  Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    const Rgb f = whole_.eval(p, toNext);
-    return toNext.z > 0 ? f - matt_ : f;
+  ScatterValue evaluate(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    ScatterValue v = whole_.evaluate(p, toNext);
+    if (toNext.z > 0) v.fCos = v.fCos - toNext.z * matt_;
+    return v;
   }
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     std::optional<ScatterSample> s = whole_.sample(p, n);
     if (s && !s->specular && s->toNext.z > 0) s->weight = s->weight - s->toNext.z / s->pdf * matt_;
     return s;
-  }
-  Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return whole_.pdf(p, toNext);
   }
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {

@@ -60,7 +60,7 @@ std::vector<bool> mattObjects(const SceneView& scene) {
       s.object = int(object), s.patch = int(i), s.patchUv = kPoints[k];
       InputBuffer inputs;
       const Interaction x = scene.shade(s, s.geometricNormal, {}, inputs);
-      isMatt[object] = x.brdf && !isBlack(x.brdf->matt(x.point).albedo);
+      isMatt[object] = x.brdf && !isBlack(x.brdf->diffuse(x.point).albedo);
     }
   }
   return isMatt;

@@ -86,7 +86,7 @@ bool Viewing::look(Path& p) const noexcept {
     const ElementInfo e = light.element(place);
     aovs->elementLevel = Real(e.level), aovs->elementId = Real(e.id);
   }
-  const MattPart matt = p.x.brdf ? p.x.brdf->matt(p.x.point) : MattPart{{}, true};
+  const DiffusePart matt = p.x.brdf ? p.x.brdf->diffuse(p.x.point) : DiffusePart{{}, true};
   const bool isKept = !isBlack(matt.albedo) && light.covers(place);
   const bool isShown = isKept && !p.gathers;
   const bool isGathered = isKept && p.gathers;
