@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/light/shape_light.h"
 #include "engine/scene/engine_schemas.h"
 
 namespace vestige {
