@@ -18,6 +18,11 @@ using Colour = std::array<double, 3>;
 using Plane = std::vector<float>;  ///< [height][width]
 struct Size {
   int width, height;
+
+  /// Of a pixel in a plane; beyond the edge it is the edge's.
+  std::size_t at(int x, int y) const {
+    return std::size_t(std::clamp(y, 0, height - 1)) * width + std::clamp(x, 0, width - 1);
+  }
 };
 
 // ---------------------------------------------------------------- colour spaces
@@ -76,19 +81,17 @@ Plane filter(const Plane& in, Size size, const Kernel& across, const Kernel& dow
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       double sum = 0;
-      for (int k = -rx; k <= rx; ++k)
-        sum +=
-            across[k + rx] * in[std::size_t(y) * size.width + std::clamp(x + k, 0, size.width - 1)];
-      middle[std::size_t(y) * size.width + x] = float(sum);
+      for (int k = -rx; k <= rx; ++k) sum += across[k + rx] * in[size.at(x + k, y)];
+      middle[size.at(x, y)] = float(sum);
     }
   std::vector<double> row(size.width);
   for (int y = 0; y < size.height; ++y) {
     std::fill(row.begin(), row.end(), 0.0);
     for (int k = -ry; k <= ry; ++k) {
-      const float* from = &middle[std::size_t(std::clamp(y + k, 0, size.height - 1)) * size.width];
+      const float* from = &middle[size.at(0, y + k)];
       for (int x = 0; x < size.width; ++x) row[x] += down[k + ry] * from[x];
     }
-    for (int x = 0; x < size.width; ++x) out[std::size_t(y) * size.width + x] = float(row[x]);
+    for (int x = 0; x < size.width; ++x) out[size.at(x, y)] = float(row[x]);
   }
   return out;
 }

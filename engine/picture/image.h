@@ -17,10 +17,11 @@ struct Image {
   std::vector<float> pixels;                    ///< [height][width][channels]
   std::map<std::string, std::string> metadata;  ///< written as string attributes to EXR
 
-  float* at(int x, int y) { return &pixels[(std::size_t(y) * width + x) * channels.size()]; }
-  const float* at(int x, int y) const {
-    return &pixels[(std::size_t(y) * width + x) * channels.size()];
-  }
+  float* at(int x, int y) { return &pixels[offset(x, y)]; }
+  const float* at(int x, int y) const { return &pixels[offset(x, y)]; }
+
+ private:
+  std::size_t offset(int x, int y) const { return (std::size_t(y) * width + x) * channels.size(); }
 };
 
 /// Any format that OpenImageIO reads, without colour conversion; nullopt-like: empty() width and

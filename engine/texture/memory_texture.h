@@ -40,7 +40,7 @@ class MemoryTexels {
 
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
-  const std::vector<Level>& levels() const noexcept { return texels_->pyramid.levels; }
+  const Table<Level>& levels() const noexcept { return texels_->pyramid.levels; }
   Rgba mean() const noexcept { return texels_->mean; }
 
   /// A texel of the full resolution, decoded when asked.
@@ -72,7 +72,7 @@ class MemoryTexels {
               };
             },
             1.f, 0);
-      const Level& level = t.levels()[std::size_t(index) - 1];
+      const Level& level = t.levels()[index - 1];
       return std::visit(
           [&]<class Number>(const std::vector<Number>& numbers) {
             constexpr float kUnit = std::is_same_v<Number, float> ? 1 : 1 / Pyramid::kUnitCodes;

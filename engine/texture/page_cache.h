@@ -59,7 +59,7 @@ class PagedFile {
 
   const TexelPlan plan;
   const TextureFacts facts;
-  const std::vector<Level> levels;
+  const Table<Level> levels;
 
   /// The tile that begins at a place, to be given back, and its numbers. Null, and counted, if it
   /// cannot be read or holds another kind of numbers than `format`; they are zeros then [any

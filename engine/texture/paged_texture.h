@@ -22,7 +22,7 @@ class PagedTexels {
 
   int width() const noexcept { return file_->plan.width; }
   int height() const noexcept { return file_->plan.height; }
-  const std::vector<Level>& levels() const noexcept { return file_->levels; }
+  const Table<Level>& levels() const noexcept { return file_->levels; }
   Rgba mean() const noexcept { return file_->facts.mean; }
 
   /// Holds the tiles that it has used last, so that most texels cost no search.
@@ -57,7 +57,7 @@ class PagedTexels {
           : reader_(reader),
             level_(level),
             y_(kFull ? reader.texels_.height() - 1 - y
-                     : reader.texels_.levels()[std::size_t(level) - 1].height - y) {}
+                     : reader.texels_.levels()[level - 1].height - y) {}
 
       FourFloats operator()(std::int32_t x) noexcept {
         if constexpr (!kFull) ++x;  // the border

@@ -17,8 +17,9 @@ struct Span {
 };
 
 /// One for every coarse texel and for the borders before and behind, which cover each other.
-std::vector<Span> spans(std::int32_t fine, std::int32_t coarse) {
-  std::vector<Span> list{{-1}};
+Table<Span> spans(std::int32_t fine, std::int32_t coarse) {
+  Table<Span> list;
+  list.push_back({-1});
   for (std::int64_t i = 0; i < coarse; ++i) {
     // In units of 1 / coarse of a fine texel all ends are integers.
     const std::int64_t begin = i * fine, end = begin + fine;
@@ -37,10 +38,10 @@ std::vector<Span> spans(std::int32_t fine, std::int32_t coarse) {
 }
 
 /// Variance that the spans add, in fine texels: that of their texels' centres about their own.
-float addedSpread(const std::vector<Span>& list, std::int32_t fine, std::int32_t coarse) {
+float addedSpread(const Table<Span>& list, std::int32_t fine, std::int32_t coarse) {
   double sum = 0;
   for (std::int32_t i = 0; i < coarse; ++i) {
-    const Span& s = list[std::size_t(i) + 1];
+    const Span& s = list[i + 1];
     const double centre = (i + 0.5) * fine / coarse;
     for (int k = 0; k < s.count; ++k) {
       const double d = s.first + k + 0.5 - centre;
@@ -50,19 +51,26 @@ float addedSpread(const std::vector<Span>& list, std::int32_t fine, std::int32_t
   return float(sum / coarse);
 }
 
+/// Numbers of a row and of a whole level, borders included.
+std::size_t rowNumbers(std::int32_t width, int channels) {
+  return std::size_t(width + 2) * channels;
+}
+std::size_t levelNumbers(const Level& level, int channels) {
+  return rowNumbers(level.width, channels) * (level.height + 2);
+}
+
 /// Makes a level from the next finer one. `readRow` writes a row of that, borders included.
 template <class Number>
 void halve(const Level& to, std::int32_t fineWidth, std::int32_t fineHeight, int channels,
            const ReadRow& readRow, Number* out) {
-  const std::vector<Span> across = spans(fineWidth, to.width), up = spans(fineHeight, to.height);
-  std::vector<float> fine(std::size_t(fineWidth + 2) * channels);
-  std::vector<float> sum(across.size() * channels);
+  const Table<Span> across = spans(fineWidth, to.width), up = spans(fineHeight, to.height);
+  std::vector<float> fine(rowNumbers(fineWidth, channels)), sum(rowNumbers(to.width, channels));
   for (const Span& v : up) {
     std::fill(sum.begin(), sum.end(), 0.f);
     for (int j = 0; j < v.count; ++j) {
       readRow(v.first + j, fine.data());
       for (std::size_t i = 0; i < sum.size(); ++i) {
-        const Span& u = across[i / channels];
+        const Span& u = across[int(i / channels)];
         const float* at = &fine[std::size_t(u.first + 1) * channels + i % channels];
         float x = 0;
         for (int k = 0; k < u.count; ++k) x += u.share[k] * at[k * channels];
@@ -83,13 +91,13 @@ void readEdged(std::int32_t y, std::int32_t width, std::int32_t height, int chan
                const ReadRow& readRow, float* row) {
   readRow(std::clamp(y, 0, height - 1), row + channels);
   std::copy_n(row + channels, channels, row);
-  std::copy_n(row + std::size_t(width) * channels, channels,
-              row + std::size_t(width + 1) * channels);
+  float* const end = row + rowNumbers(width, channels);
+  std::copy_n(end - 2 * channels, channels, end - channels);
 }
 
 template <class Number>
-void fill(std::vector<Number>& texels, const std::vector<Level>& levels, const Level& full,
-          int channels, const ReadRow& readRow) {
+void fill(std::vector<Number>& texels, const Table<Level>& levels, const Level& full, int channels,
+          const ReadRow& readRow) {
   constexpr float kUnit = std::is_same_v<Number, float> ? 1 : 1 / Pyramid::kUnitCodes;
   texels.resize(pyramidNumbers(levels, channels));
   halve(
@@ -98,11 +106,11 @@ void fill(std::vector<Number>& texels, const std::vector<Level>& levels, const L
         readEdged(y, full.width, full.height, channels, readRow, row);
       },
       texels.data());
-  for (std::size_t i = 1; i < levels.size(); ++i) {
+  for (int i = 1; i < levels.size(); ++i) {
     const Level& from = levels[i - 1];
-    const std::size_t stride = std::size_t(from.width + 2) * channels;
+    const std::size_t stride = rowNumbers(from.width, channels);
     const auto stored = [&](std::int32_t y, float* row) {
-      const Number* at = &texels[from.start + std::size_t(y + 1) * stride];
+      const Number* at = &texels[from.start + stride * (y + 1)];
       for (std::size_t k = 0; k < stride; ++k) row[k] = kUnit * float(at[k]);
     };
     halve(levels[i], from.width, from.height, channels, stored, &texels[levels[i].start]);
@@ -111,8 +119,8 @@ void fill(std::vector<Number>& texels, const std::vector<Level>& levels, const L
 
 }  // namespace
 
-std::vector<Level> pyramidLevels(std::int32_t width, std::int32_t height, int channels) {
-  std::vector<Level> levels;
+Table<Level> pyramidLevels(std::int32_t width, std::int32_t height, int channels) {
+  Table<Level> levels;
   Level last;
   last.width = width, last.height = height;
   std::size_t start = 0;
@@ -127,17 +135,17 @@ std::vector<Level> pyramidLevels(std::int32_t width, std::int32_t height, int ch
     };
     next.spreadX = last.spreadX + spread(last.width, next.width, last.scaleX);
     next.spreadY = last.spreadY + spread(last.height, next.height, last.scaleY);
-    start += std::size_t(next.width + 2) * (next.height + 2) * channels;
+    start += levelNumbers(next, channels);
     levels.push_back(last = next);
   }
   return levels;
 }
 
-std::size_t pyramidNumbers(const std::vector<Level>& levels, int channels) noexcept {
+std::size_t pyramidNumbers(const Table<Level>& levels, int channels) noexcept {
   constexpr std::size_t kPadding = 3;  // behind the last texel: lookups read four at a time
   if (levels.empty()) return 0;
   const Level& top = levels.back();
-  return top.start + std::size_t(top.width + 2) * (top.height + 2) * channels + kPadding;
+  return top.start + levelNumbers(top, channels) + kPadding;
 }
 
 std::size_t Pyramid::bytes() const noexcept {

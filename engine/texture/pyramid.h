@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include <vestige/table.h>
+
 namespace vestige {
 
 /// One version. Each of its texels is the average of the same area of the full resolution, so every
@@ -27,7 +29,7 @@ struct Level {
 struct Pyramid {
   static constexpr float kUnitCodes = 65535;
 
-  std::vector<Level> levels;
+  Table<Level> levels;
   /// [height + 2][width + 2][channels] a level, row 0 at the bottom. Integers where all values lie
   /// in [0, 1], linear: no table is needed, and memory grows by two thirds for pictures of 8 bits.
   std::variant<std::vector<std::uint16_t>, std::vector<float>> texels;
@@ -36,8 +38,8 @@ struct Pyramid {
 };
 
 /// The levels of a picture of this size, and how many numbers a pyramid of them has.
-std::vector<Level> pyramidLevels(std::int32_t width, std::int32_t height, int channels);
-std::size_t pyramidNumbers(const std::vector<Level>& levels, int channels) noexcept;
+Table<Level> pyramidLevels(std::int32_t width, std::int32_t height, int channels);
+std::size_t pyramidNumbers(const Table<Level>& levels, int channels) noexcept;
 
 /// Writes one row of the full resolution, decoded, into [width][channels]; row 0 at the bottom.
 using ReadRow = std::function<void(std::int32_t y, float* row)>;

@@ -106,7 +106,7 @@ class FilteredTexture final : public Texture {
   /// Beside the fast path, not in it.
   [[gnu::noinline]] Rgba filtered(Vec2 uv, const Vec2 dUv[2]) const noexcept {
     Reader reader(source_);
-    const int levels = int(source_.levels().size()) + 1;
+    const int levels = source_.levels().size() + 1;
     const Wanted wanted = wantedFilter(boundedProducts(dUv, width_, height_), levels);
     if (wanted.longest <= 1) return checked(reader, bilinear(reader, uv));
     const Vec2 at{broughtHome(uv.x, wrapU_), broughtHome(uv.y, wrapV_)};
@@ -124,7 +124,7 @@ class FilteredTexture final : public Texture {
   }
 
   Rgba averaged(Reader& reader, Vec2 uv, const Moments& covariance, int index) const noexcept {
-    const Level& level = index ? source_.levels()[std::size_t(index) - 1] : full_;
+    const Level& level = index ? source_.levels()[index - 1] : full_;
     const Bump bump = bumpOn(level, covariance, level.width == 1 && wrapU_ != Wrap::clamp,
                              level.height == 1 && wrapV_ != Wrap::clamp);
     return reader.read(index, [&](auto rowAt, float unit, int border) {

@@ -199,8 +199,8 @@ std::optional<TextureFacts> readTextureFile(const std::string& file, const Texel
   const auto facts = parsed(input->spec().get_string_attribute("ImageDescription"), key);
   if (!facts || !isLevel(0, plan.width, plan.height)) return std::nullopt;
   const auto levels = pyramidLevels(plan.width, plan.height, plan.channels);
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    if (!isLevel(int(i) + 1, levels[i].width + 2, levels[i].height + 2)) return std::nullopt;
+  for (int i = 0; i < levels.size(); ++i)
+    if (!isLevel(i + 1, levels[i].width + 2, levels[i].height + 2)) return std::nullopt;
   return facts;
 }
 
