@@ -31,8 +31,8 @@ file(CREATE_LINK ${CMAKE_SOURCE_DIR}/engine/sdk/vestige ${CMAKE_BINARY_DIR}/incl
 file(CREATE_LINK ${CMAKE_SOURCE_DIR}/app/templates ${CMAKE_BINARY_DIR}/${VESTIGE_SHARE_DIR}/templates SYMBOLIC)
 
 install(DIRECTORY app/templates DESTINATION ${VESTIGE_SHARE_DIR})
-# The pages lie as they do in the checkout, so that the links between them arrive. What is installed
-# elsewhere, headers and examples, is found through links relative to the pages.
+# The pages lie as they do in the checkout, so that the links between them work. Headers and
+# examples are installed elsewhere; symbolic links relative to the pages lead there.
 set(pages share/doc/vestige)
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${pages})
 install(DIRECTORY docs DESTINATION ${pages}

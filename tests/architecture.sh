@@ -39,7 +39,7 @@ for part in app/*.cpp app/*.h app/templates; do
 done
 includes app/window "$std|$system|$sdk|\"(app|engine|lang)/|<fmt/|<CLI/|<GL/|<GLFW/|<imgui.h>|<backends/"
 
-# No room is left out, here or on the page.
+# Every room has a rule here and a row on the page.
 for room in engine/*/ judge/ lang/ app/window/; do
   room=${room%/}
   [[ -n $(find "$room" -name '*.h' -o -name '*.cpp') ]] || continue
