@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "app/terminal.h"
-#include "engine/image/fingerprint.h"
+#include "engine/files/fingerprint.h"
 #include "engine/trace/world.h"
 #include "lang/hash.h"
 

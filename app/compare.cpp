@@ -9,7 +9,7 @@
 
 #include "app/command.h"
 #include "app/output.h"
-#include "engine/image/image.h"
+#include "engine/picture/compare.h"
 
 namespace vestige::app {
 namespace {

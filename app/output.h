@@ -7,7 +7,7 @@
 
 #include "app/command.h"
 #include "engine/film/film.h"
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 
 namespace vestige::app {
 

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/command.h"
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 #include "engine/scene/registry.h"
 #include "engine/trace/world.h"
 

@@ -13,7 +13,8 @@
 #include <random>
 #include <vector>
 
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
+#include "engine/texture/texture_store.h"
 
 using namespace vestige;
 

@@ -31,5 +31,14 @@ file(CREATE_LINK ${CMAKE_SOURCE_DIR}/engine/sdk/vestige ${CMAKE_BINARY_DIR}/incl
 file(CREATE_LINK ${CMAKE_SOURCE_DIR}/app/templates ${CMAKE_BINARY_DIR}/${VESTIGE_SHARE_DIR}/templates SYMBOLIC)
 
 install(DIRECTORY app/templates DESTINATION ${VESTIGE_SHARE_DIR})
-install(DIRECTORY docs/ DESTINATION share/doc/vestige)
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/vestige)
+# The pages lie as they do in the checkout, so that the links between them work. Headers and
+# examples are installed elsewhere; symbolic links relative to the pages lead there.
+set(pages share/doc/vestige)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE DESTINATION ${pages})
+install(DIRECTORY docs DESTINATION ${pages}
+  PATTERN docs/figures EXCLUDE PATTERN docs/reference/make EXCLUDE PATTERN "*.py" EXCLUDE)
+install(FILES bench/README.md DESTINATION ${pages}/bench)
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/pages/engine/sdk)
+file(CREATE_LINK ../../../../../include/vestige ${CMAKE_BINARY_DIR}/pages/engine/sdk/vestige SYMBOLIC)
+file(CREATE_LINK ../../vestige/examples ${CMAKE_BINARY_DIR}/pages/examples SYMBOLIC)
+install(DIRECTORY ${CMAKE_BINARY_DIR}/pages/ DESTINATION ${pages})

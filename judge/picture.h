@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 #include "judge/trusted_difference.h"
 
 namespace vestige::judge {

@@ -11,8 +11,10 @@ system='<(execinfo|link|spawn|unistd|dlfcn|fcntl|signal|termios|xmmintrin|pmmint
 sdk='<vestige/[a-z_0-9/]+\.h>'
 
 # includes FOLDER ALLOWED: every #include below FOLDER is one of the extended regex ALLOWED.
+declare -A checked
 includes() {
   local wrong
+  checked[${1%/}]=yes
   [[ -e $1 ]] || return 0
   wrong=$(grep -rnE --include='*.h' --include='*.cpp' '^[[:space:]]*#[[:space:]]*include' "$1" |
     grep -vE "#[[:space:]]*include[[:space:]]+($2)") || return 0
@@ -22,9 +24,13 @@ includes() {
 
 includes engine/sdk "$std|$sdk"
 includes engine/trace "$std|$system|$sdk|\"engine/trace/|<embree[34]/"
-includes engine/image "$std|$system|$sdk|\"engine/image/|<fmt/|<OpenImageIO/|<OpenColorIO/"
+includes engine/files "$std|$system|\"engine/files/|<fmt/|<OpenImageIO/hash\.h>"
+includes engine/colour "$std|\"engine/colour/|<fmt/|<OpenColorIO/"
+includes engine/picture "$std|$system|$sdk|\"engine/(picture|colour)/|<fmt/|<OpenImageIO/"
+includes engine/texture "$std|$system|$sdk|\"engine/(texture|picture|colour|files)/|<fmt/|<OpenImageIO/"
+includes engine/light "$std|$sdk|\"engine/(light|trace)/"
 includes engine/film "$std|$system|$sdk|\"engine/film/"
-includes engine/scene "$std|$system|$sdk|\"engine/(scene|trace|image)/|<fmt/"
+includes engine/scene "$std|$system|$sdk|\"engine/(scene|light|trace|texture|files)/|<fmt/"
 includes engine/render "$std|$system|$sdk|\"engine/"
 includes judge "$std|$system|$sdk|\"(judge|engine)/|<fmt/"
 includes lang "$std|$system|$sdk|\"lang/|<fmt/"
@@ -32,6 +38,20 @@ for part in app/*.cpp app/*.h app/templates; do
   includes "$part" "$std|$system|$sdk|\"(app|engine|judge|lang)/|<fmt/|<CLI/|<nlohmann/"
 done
 includes app/window "$std|$system|$sdk|\"(app|engine|lang)/|<fmt/|<CLI/|<GL/|<GLFW/|<imgui.h>|<backends/"
+
+# Every room has a rule here and a row on the page.
+for room in engine/*/ judge/ lang/ app/window/; do
+  room=${room%/}
+  [[ -n $(find "$room" -name '*.h' -o -name '*.cpp') ]] || continue
+  if [[ -z ${checked[$room]:-} ]]; then
+    printf 'tests/architecture.sh has no rule for %s/\n' "$room"
+    status=1
+  fi
+  if ! grep -qF "\`$room/" docs/architecture.md; then
+    printf 'docs/architecture.md does not list %s/\n' "$room"
+    status=1
+  fi
+done
 
 # A plugin sees the SDK and, if it is a folder, its own files; one of them brings a library.
 for kind in plugins/*/; do

@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every link from one page of the documentation to another arrives: file, heading, line."""
+"""Every link from one page of the documentation to another arrives: file, heading, line.
+
+    tests/links.py            the pages of this checkout
+    tests/links.py FOLDER     every page below FOLDER: an installation
+"""
 import os
 import re
 import sys
@@ -43,19 +47,26 @@ def problem(page, link):
     return None
 
 
-def main():
-    pages = [os.path.join(HOME, "README.md"), os.path.join(HOME, "CONTRIBUTING.md")]
-    for folder, _, files in os.walk(os.path.join(HOME, "docs")):
-        pages += [os.path.join(folder, f) for f in files if f.endswith(".md")]
+def pages_below(home):
+    """All but those of build folders and hidden ones."""
+    for folder, below, files in os.walk(home):
+        below[:] = [b for b in below if not b.startswith((".", "build"))]
+        yield from (os.path.join(folder, f) for f in files if f.endswith(".md"))
+
+
+def main(home):
+    pages = list(pages_below(home))
+    if not pages:
+        sys.exit(f"there is no page below {home}")
     wrong = []
     for page in sorted(pages):
         for link in re.findall(r"(?<!\\)\]\(([^)\s]+)\)", without_code(text_of(page))):
             why = None if re.match(r"\w+:", link) else problem(page, link)
             if why:
-                wrong.append(f"{os.path.relpath(page, HOME)}: {link}: {why}")
+                wrong.append(f"{os.path.relpath(page, home)}: {link}: {why}")
     if wrong:
         sys.exit("\n".join(wrong))
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1] if len(sys.argv) > 1 else HOME)

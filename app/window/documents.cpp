@@ -13,6 +13,7 @@
 
 #include "app/output.h"
 #include "app/window/layers.h"
+#include "engine/picture/compare.h"
 
 extern char** environ;
 

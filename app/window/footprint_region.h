@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 #include "engine/scene/scene.h"
 
 namespace vestige::app {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/window/preview.h"
+#include "engine/colour/display.h"
 
 namespace vestige::app {
 

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "app/window/gl.h"
-#include "engine/image/image.h"
+#include "engine/colour/display.h"
+#include "engine/picture/image.h"
 
 namespace vestige::app {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/image/file_stamp.h"
-#include "engine/image/image.h"
+#include "engine/files/file_stamp.h"
+#include "engine/texture/texture_store.h"
 #include "engine/trace/world.h"
 
 namespace vestige {

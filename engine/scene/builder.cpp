@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <vestige/medium.h>
 
+#include "engine/light/shape_light.h"
 #include "engine/scene/engine_schemas.h"
 
 namespace vestige {

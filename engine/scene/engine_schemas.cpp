@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/engine_schemas.h"
 
-#include <vestige/footprint/settings.h>
+#include <vestige/footprint/language.h>
 
 namespace vestige {
 

@@ -10,8 +10,8 @@
 #include <vestige/camera.h>
 #include <vestige/integrator.h>
 
-#include "engine/image/image.h"
 #include "engine/scene/registry.h"
+#include "engine/texture/texture_store.h"
 
 namespace vestige {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "engine/image/image.h"
-#include "engine/scene/light_tree.h"
+#include "engine/light/light_tree.h"
 #include "engine/scene/material.h"
 #include "engine/scene/scene.h"
+#include "engine/texture/texture_store.h"
 #include "engine/trace/world.h"
 
 namespace vestige {

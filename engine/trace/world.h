@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All surfaces of a scene behind one acceleration structure. Embree stays behind this header.
 #pragma once
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -72,11 +71,5 @@ class World {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// A shape that shines, as a light: drawn by area (by cone where the shape offers it), in world
-/// space. `radiance` is asked with the surface point (uv, position) and must be thread-safe.
-std::unique_ptr<Light> makeShapeLight(const Placement& placement,
-                                      std::function<Rgb(const SurfacePoint&)> radiance,
-                                      bool twoSided, Rgb meanRadiance);
 
 }  // namespace vestige

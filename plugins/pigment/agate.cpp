@@ -32,15 +32,16 @@ class Agate final : public Pigment {
   }
 
   Rgba eval(const Lookup& at) const noexcept override {
-    const Patch patch(at);
+    const PatternFootprint patch(at);
     if (patch.isHuge()) return mean();
-    return mixed(overTurbulence(patch, noise_, [&](const Patch& p, const Turbulence& stir) {
-      const double phi = 1.1 * double(p.centre.z) + double(strength_ * stir.value);
-      const Widths widths{1.1 * double(p.a.z) + double(strength_ * stir.alongA),
-                          1.1 * double(p.b.z) + double(strength_ * stir.alongB)};
-      const double lost = double(sqr(strength_) * stir.lost);
-      return widths.isPoint() && lost == 0 ? wave(phi) : faded(phi, widths, lost);
-    }));
+    return mixed(
+        overTurbulence(patch, noise_, [&](const PatternFootprint& p, const Turbulence& stir) {
+          const double phi = 1.1 * double(p.centre.z) + double(strength_ * stir.value);
+          const Widths widths{1.1 * double(p.a.z) + double(strength_ * stir.alongA),
+                              1.1 * double(p.b.z) + double(strength_ * stir.alongB)};
+          const double lost = double(sqr(strength_) * stir.lost);
+          return widths.isPoint() && lost == 0 ? wave(phi) : faded(phi, widths, lost);
+        }));
   }
 
   Rgba mean() const noexcept override { return mixed(harmonic_[0]); }

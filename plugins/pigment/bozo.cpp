@@ -22,7 +22,7 @@ class Bozo final : public Pigment {
       : first_(v.rgb(0)), second_(v.rgb(1)), seed_(std::uint32_t(v.integer(2))) {}
 
   Rgba eval(const Lookup& at) const noexcept override {
-    const Real n = octaveOver(Patch(at), seed_, 0, [](Real x) { return x; });
+    const Real n = octaveOver(PatternFootprint(at), seed_, 0, [](Real x) { return x; });
     return mixed(std::clamp(Real(0.5) + Real(0.5) * n, Real(0), Real(1)));
   }
 

@@ -33,12 +33,12 @@ class Brick final : public Pigment {
   }
 
   Rgba eval(const Lookup& at) const noexcept override {
-    const Patch patch(at);
+    const PatternFootprint patch(at);
     if (patch.isPoint()) return mixed(brickShare(patch));
     const auto cells = [&](Vec3 v) { return Vec3{v.x / size_.x, v.y / size_.y, v.z / size_.z}; };
-    if (Patch({}, cells(patch.a), cells(patch.b)).isHuge()) return mean();
-    return mixed(
-        overSlant(patch, Real(0.5) * size_, [&](const Patch& p) { return brickShare(p); }));
+    if (PatternFootprint({}, cells(patch.a), cells(patch.b)).isHuge()) return mean();
+    return mixed(overSlant(patch, Real(0.5) * size_,
+                           [&](const PatternFootprint& p) { return brickShare(p); }));
   }
 
   Rgba mean() const noexcept override { return mixed(duty(0) * duty(1) * duty(2)); }
@@ -47,12 +47,12 @@ class Brick final : public Pigment {
   double duty(int axis) const noexcept { return 1 - double(thickness_) / double(size_[axis]); }
 
   /// Share of brick along x or z, for rows that are not shifted or shifted by half.
-  double across(const Patch& p, int axis, double shift) const noexcept {
+  double across(const PatternFootprint& p, int axis, double shift) const noexcept {
     const double t = double(p.centre[axis]) / double(size_[axis]) + shift;
     return filtered(PulseWave{duty(axis)}, t, p.along(axis, size_[axis]));
   }
 
-  double brickShare(const Patch& p) const noexcept {
+  double brickShare(const PatternFootprint& p) const noexcept {
     const PulseWave row{duty(1) / 2};  // a period is two rows
     const double t = double(p.centre.y) / (2 * double(size_.y));
     const Widths widths = p.along(1, 2 * size_.y);

@@ -26,12 +26,14 @@ class Checker final : public Pigment {
 
   Rgba eval(const Lookup& at) const noexcept override {
     const Vec2* d = at.footprint.dUv;
-    const Patch patch =
-        isSolid_ ? Patch(at)
-                 : Patch({at.uv.x, at.uv.y, 0}, {d[0].x, d[0].y, 0}, {d[1].x, d[1].y, 0});
+    const PatternFootprint patch =
+        isSolid_
+            ? PatternFootprint(at)
+            : PatternFootprint({at.uv.x, at.uv.y, 0}, {d[0].x, d[0].y, 0}, {d[1].x, d[1].y, 0});
     if (patch.isPoint()) return {colours_[isOdd(patch.centre)], 1};
     if (patch.isHuge()) return mean();
-    const double odd = overSlant(patch, {1, 1, 1}, [&](const Patch& p) { return oddShare(p); });
+    const double odd =
+        overSlant(patch, {1, 1, 1}, [&](const PatternFootprint& p) { return oddShare(p); });
     return {colours_[0] + Real(odd) * (colours_[1] - colours_[0]), 1};
   }
 
@@ -54,7 +56,7 @@ class Checker final : public Pigment {
 
   /// The mean of a product of independent waves, +1 in even cells and -1 in odd ones, is the
   /// product of their means.
-  double oddShare(const Patch& patch) const noexcept {
+  double oddShare(const PatternFootprint& patch) const noexcept {
     const Vec3 p = moved(patch.centre);
     double product = 1;
     for (int axis = 0; axis < 3; ++axis)

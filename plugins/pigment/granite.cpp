@@ -23,7 +23,7 @@ class Granite final : public Pigment {
 
   Rgba eval(const Lookup& at) const noexcept override {
     Real t = kMean, share = 1;
-    Patch p = scaled(Patch(at), 4);
+    PatternFootprint p = scaled(PatternFootprint(at), 4);
     for (int i = 0; i < kOctaves; ++i, p = scaled(p, 2), share *= Real(0.5))
       t += share *
            octaveOver(p, octaveSeed(seed_, i), kNoiseMeanAbs, [](Real n) { return std::abs(n); });

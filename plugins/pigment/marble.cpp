@@ -31,16 +31,17 @@ class Marble final : public Pigment {
         noise_{int(v.integer(3)), v.real(4), v.real(5), std::uint32_t(v.integer(6))} {}
 
   Rgba eval(const Lookup& at) const noexcept override {
-    const Patch patch(at);
+    const PatternFootprint patch(at);
     if (patch.isHuge()) return mean();
     if (strength_ == 0)
       return mixed(Real(filtered(TriangleWave{}, at.position.x, patch.along(0, 1))));
-    return mixed(Real(overTurbulence(patch, noise_, [&](const Patch& p, const Turbulence& stir) {
-      Widths widths = p.along(0, 1);
-      widths.a += double(strength_ * stir.alongA), widths.b += double(strength_ * stir.alongB);
-      return filtered(TriangleWave{}, p.centre.x + strength_ * stir.value,
-                      widths.blurred(double(sqr(strength_) * stir.lost)));
-    })));
+    return mixed(
+        Real(overTurbulence(patch, noise_, [&](const PatternFootprint& p, const Turbulence& stir) {
+          Widths widths = p.along(0, 1);
+          widths.a += double(strength_ * stir.alongA), widths.b += double(strength_ * stir.alongB);
+          return filtered(TriangleWave{}, p.centre.x + strength_ * stir.value,
+                          widths.blurred(double(sqr(strength_) * stir.lost)));
+        })));
   }
 
   Rgba mean() const noexcept override { return mixed(Real(0.5)); }

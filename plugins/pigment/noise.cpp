@@ -36,7 +36,7 @@ class Noise final : public Pigment {
 
   Rgba eval(const Lookup& at) const noexcept override {
     Real sum = 0, share = scale_;
-    Patch p(at);
+    PatternFootprint p(at);
     for (int i = 0; i < octaves_; ++i, p = scaled(p, lambda_), share *= omega_)
       sum += share * octaveOver(p, octaveSeed(seed_, i), 0, [](Real n) { return n; });
     const Real t = std::clamp(Real(0.5) + Real(0.5) * sum, Real(0), Real(1));

@@ -30,20 +30,21 @@ class Wood final : public Pigment {
         noise_{int(v.integer(3)), v.real(4), v.real(5), std::uint32_t(v.integer(6))} {}
 
   Rgba eval(const Lookup& at) const noexcept override {
-    const Patch patch(at);
+    const PatternFootprint patch(at);
     if (patch.isHuge()) return mean();
     if (patch.isPoint()) return mixed(Real(stirred(patch)));
     const bool isStirred = strength_.x != 0 || strength_.y != 0;
     const Pieces n = isStirred ? grainPieces(patch, Real(0.3), 4) : Pieces{};
-    return mixed(Real(overPieces(patch, n.a, n.b, [&](const Patch& p) { return stirred(p); })));
+    return mixed(
+        Real(overPieces(patch, n.a, n.b, [&](const PatternFootprint& p) { return stirred(p); })));
   }
 
   Rgba mean() const noexcept override { return mixed(Real(0.5)); }
 
  private:
   /// Over a patch within which turbulence bends little.
-  double stirred(const Patch& still) const noexcept {
-    Patch patch = still;
+  double stirred(const PatternFootprint& still) const noexcept {
+    PatternFootprint patch = still;
     double lost = 0;
     for (int axis = 0; axis < 2; ++axis) {
       if (strength_[axis] == 0) continue;
@@ -56,10 +57,10 @@ class Wood final : public Pigment {
       lost += double(sqr(strength_[axis]) * stir.lost) / 2;  // half of it along the radius
     }
     return overPieces(patch, pieces(patch.a), pieces(patch.b),
-                      [&](const Patch& p) { return ringShare(p, lost); });
+                      [&](const PatternFootprint& p) { return ringShare(p, lost); });
   }
 
-  static double ringShare(const Patch& p, double lost) noexcept {
+  static double ringShare(const PatternFootprint& p, double lost) noexcept {
     const Real r = std::sqrt(sqr(p.centre.x) + sqr(p.centre.y));
     const Vec3 outwards = r > 0 ? Vec3{p.centre.x / r, p.centre.y / r, 0} : Vec3{1, 0, 0};
     return filtered(TriangleWave{}, r,

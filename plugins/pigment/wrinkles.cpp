@@ -23,7 +23,7 @@ class Wrinkles final : public Pigment {
 
   Rgba eval(const Lookup& at) const noexcept override {
     Real t = kMean, share = Real(0.5);
-    Patch p(at);
+    PatternFootprint p(at);
     for (int i = 0; i < kOctaves; ++i, p = scaled(p, 2), share *= Real(0.5))
       t += share * octaveOver(p, octaveSeed(seed_, i), Real(0.5),
                               [](Real n) { return std::clamp(Real(0.5) + n, Real(0), Real(1)); });

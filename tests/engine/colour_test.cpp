@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expected numbers: sRGB by IEC 61966-2-1; ACES' output transform as OpenColorIO 2.1 alone gives it
 // (measured once, outside this code: a change here or in the config shows); matrices as published.
-#include "engine/image/colour.h"
+#include "engine/colour/colour.h"
 
 #include <stdlib.h>
 

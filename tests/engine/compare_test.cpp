@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/image/flip.h"
-#include "engine/image/image.h"
+#include "engine/picture/compare.h"
+#include "engine/picture/flip.h"
 #include "support/catch.h"
 
 using namespace vestige;

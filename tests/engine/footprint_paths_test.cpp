@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Footprints of whole paths: special cases with an answer of their own, and what must not change
 // them.
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 #include "support/catch.h"
 #include "support/path_trace.h"
 #include "support/room_of_everything.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures to files and back.
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 
 #include <sys/mount.h>
 #include <sys/resource.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choosing one of many lights: chances are those with which lights are drawn, no light that reaches
 // a point is left out, and what matters there is drawn more often.
-#include "engine/scene/light_tree.h"
+#include "engine/light/light_tree.h"
 
 #include <memory>
 

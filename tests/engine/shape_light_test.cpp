@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vestige/sampling.h>
 
+#include "engine/light/shape_light.h"
 #include "engine/trace/world.h"
 #include "support/catch.h"
 #include "support/solids.h"

@@ -5,7 +5,8 @@
 #include <limits>
 #include <random>
 
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
+#include "engine/texture/texture_store.h"
 #include "support/catch.h"
 #include "support/small_png.h"
 #include "support/temp_folder.h"

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 #include "support/catch.h"
 
 namespace vestige::test {

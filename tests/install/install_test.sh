@@ -36,6 +36,11 @@ render() {
 }
 
 quietly cmake --install "$build" --prefix "$work/first"
+# No two rules write the same file: one of the two would be lost.
+sed -nE 's/^-- (Installing|Up-to-date): //p' "$work/log" | sort | uniq -d | while IFS= read -r path; do
+  if [[ ! -d $path || -L $path ]]; then printf '%s\n' "$path"; fi
+done >"$work/twice"
+[[ ! -s $work/twice ]] || { cat "$work/twice" >&2; fail "these files are installed twice"; }
 mv "$work/first" "$work/second"  # nothing in it may know where it was
 prefix=$work/second
 PATH=$prefix/bin:$PATH
@@ -43,6 +48,9 @@ if grep -rlF -e "$build" -e "$source" -e "$work/first" "$prefix/lib/cmake" "$pre
   "$prefix/include"; then
   fail "these files name a folder of the machine that built them"
 fi
+
+# Links between the installed pages work: guides, reference, headers, examples.
+if command -v python3 >/dev/null; then quietly python3 "$source/tests/links.py" "$prefix"; fi
 
 # It finds its own plugins, and no others.
 vestige plugin list >"$work/list"

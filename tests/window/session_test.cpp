@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "app/run.h"
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 #include "support/catch.h"
 
 using namespace vestige;

@@ -102,13 +102,14 @@ double filtered(const Wave& wave, double t, Widths widths) noexcept {
   return std::clamp(mean, 0.0, 1.0);
 }
 
-/// A footprint in a pattern's own units.
-struct Patch {
+/// A footprint in a pattern's own units: the parallelogram centre + u a + v b, u and v in
+/// [-1/2, 1/2].
+struct PatternFootprint {
   Vec3 centre, a, b;
 
-  explicit Patch(const Lookup& at) noexcept
+  explicit PatternFootprint(const Lookup& at) noexcept
       : centre(at.position), a(at.footprint.dP[0]), b(at.footprint.dP[1]) {}
-  Patch(Vec3 c, Vec3 da, Vec3 db) noexcept : centre(c), a(da), b(db) {}
+  PatternFootprint(Vec3 c, Vec3 da, Vec3 db) noexcept : centre(c), a(da), b(db) {}
 
   bool isPoint() const noexcept { return lengthSquared(a) + lengthSquared(b) == 0; }
   bool isHuge() const noexcept { return !(maxAbsComponent(a) < 1e6 && maxAbsComponent(b) < 1e6); }
@@ -120,14 +121,14 @@ struct Patch {
 
 /// The mean over na x nb equal pieces of a patch of what `f(piece)` says.
 template <class Function>
-double overPieces(const Patch& patch, int na, int nb, const Function& f) noexcept {
+double overPieces(const PatternFootprint& patch, int na, int nb, const Function& f) noexcept {
   const Vec3 a = patch.a / Real(na), b = patch.b / Real(nb);
   double sum = 0;
   for (int i = 0; i < na; ++i)
     for (int j = 0; j < nb; ++j) {
       const Real u = (i + Real(0.5)) - Real(0.5) * Real(na);
       const Real v = (j + Real(0.5)) - Real(0.5) * Real(nb);
-      sum += f(Patch{patch.centre + u * a + v * b, a, b});
+      sum += f(PatternFootprint{patch.centre + u * a + v * b, a, b});
     }
   return sum / (na * nb);
 }
@@ -144,7 +145,7 @@ inline int slantPieces(Vec3 v, Real step, int most) noexcept {
 /// vector moves along two axes at once. The shorter vector is cut into up to 3 pieces, the longer
 /// until there are 16; beyond, the correlation between axes is lost and the pattern fades early.
 template <class Function>
-double overSlant(const Patch& patch, Vec3 cell, const Function& f) noexcept {
+double overSlant(const PatternFootprint& patch, Vec3 cell, const Function& f) noexcept {
   const auto inCells = [&](Vec3 v) { return Vec3{v.x / cell.x, v.y / cell.y, v.z / cell.z}; };
   const Vec3 a = inCells(patch.a), b = inCells(patch.b);
   const bool aIsLonger = lengthSquared(a) >= lengthSquared(b);

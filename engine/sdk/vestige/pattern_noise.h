@@ -71,7 +71,7 @@ inline std::uint32_t octaveSeed(std::uint32_t seed, int octave) noexcept {
 /// distance r is about exp(-2.3 r^2) (`finer` times that in the exponent for shapes like |n|), of
 /// which the mean over a box of width l is about exp(-2.3 l^2 / 12). The patch is in lattice units.
 /// 0 where next to nothing is left: whatever is smaller is not worth a look.
-inline Real noiseKept(const Patch& patch, Real finer = 1) noexcept {
+inline Real noiseKept(const PatternFootprint& patch, Real finer = 1) noexcept {
   const Real squares = lengthSquared(patch.a) + lengthSquared(patch.b);
   return squares * finer < 25 ? std::exp(Real(-2.3 / 12) * finer * squares) : Real(0);
 }
@@ -80,7 +80,7 @@ inline Real noiseKept(const Patch& patch, Real finer = 1) noexcept {
 struct Pieces {
   int a = 1, b = 1;
 };
-inline Pieces grainPieces(const Patch& patch, Real step, int most) noexcept {
+inline Pieces grainPieces(const PatternFootprint& patch, Real step, int most) noexcept {
   const auto wanted = [&](Vec3 v) {
     return int(std::clamp(std::ceil(length(v) / step), Real(1), Real(most)));
   };
@@ -94,7 +94,8 @@ inline Pieces grainPieces(const Patch& patch, Real step, int most) noexcept {
 /// at one place, but wrong by as much at all places of a pixel, and stay so as samples are added.
 /// Only what is so large that six points say less than the mean fades to that.
 template <class Shape>
-Real octaveOver(const Patch& patch, std::uint32_t seed, Real mean, const Shape& shape) noexcept {
+Real octaveOver(const PatternFootprint& patch, std::uint32_t seed, Real mean,
+                const Shape& shape) noexcept {
   if (patch.isPoint()) return shape(gradientNoise(patch.centre, seed)) - mean;
   if (patch.isHuge()) return 0;
   constexpr Real kFrom = 10, kTo = 30;  // grains under the patch, about
@@ -102,14 +103,14 @@ Real octaveOver(const Patch& patch, std::uint32_t seed, Real mean, const Shape& 
   if (!(grains < kTo)) return 0;
   const Real kept = std::min((kTo - grains) / (kTo - kFrom), Real(1));
   const auto [na, nb] = grainPieces(patch, Real(0.75), 6);
-  const double rest = overPieces(patch, na, nb, [&](const Patch& piece) {
+  const double rest = overPieces(patch, na, nb, [&](const PatternFootprint& piece) {
     return double(shape(gradientNoise(piece.centre, seed)) - mean);
   });
   return kept * Real(rest);
 }
 
 /// A patch at `scale` times the size.
-inline Patch scaled(const Patch& p, Real scale) noexcept {
+inline PatternFootprint scaled(const PatternFootprint& p, Real scale) noexcept {
   return {scale * p.centre, scale * p.a, scale * p.b};
 }
 
@@ -127,12 +128,12 @@ struct Turbulence {
   Real lost = 0;                ///< variance of the octaves that are finer than the patch
 };
 
-inline Turbulence turbulence(const Patch& patch, const TurbulenceSettings& s) noexcept {
+inline Turbulence turbulence(const PatternFootprint& patch, const TurbulenceSettings& s) noexcept {
   Turbulence t;
   Real scale = 1, share = 1;
   const bool isPoint = patch.isPoint();
   for (int i = 0; i < s.octaves; ++i, scale *= s.lambda, share *= s.omega) {
-    const Patch p = scaled(patch, scale);
+    const PatternFootprint p = scaled(patch, scale);
     const std::uint32_t seed = octaveSeed(s.seed, i);
     const Real kept = isPoint ? Real(1) : noiseKept(p);
     t.lost += sqr(share) * kNoiseVariance * (1 - sqr(kept));
@@ -151,10 +152,12 @@ inline Turbulence turbulence(const Patch& patch, const TurbulenceSettings& s) no
 
 /// `f(piece, turbulence)` over up to four pieces of a patch, within which turbulence bends little.
 template <class Function>
-double overTurbulence(const Patch& patch, const TurbulenceSettings& s, const Function& f) noexcept {
+double overTurbulence(const PatternFootprint& patch, const TurbulenceSettings& s,
+                      const Function& f) noexcept {
   if (patch.isPoint()) return f(patch, turbulence(patch, s));
   const Pieces n = grainPieces(patch, Real(0.3), 4);
-  return overPieces(patch, n.a, n.b, [&](const Patch& p) { return f(p, turbulence(p, s)); });
+  return overPieces(patch, n.a, n.b,
+                    [&](const PatternFootprint& p) { return f(p, turbulence(p, s)); });
 }
 
 }  // namespace vestige

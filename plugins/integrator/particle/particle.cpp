@@ -4,6 +4,7 @@
 // from the eye.
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001. Sec. 4.2, Fig. 4
+#include <vestige/footprint/language.h>
 #include <vestige/plugin.h>
 
 #include <chrono>
