@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Path tracing [Kaj86] in its shortest form: the integrator to read first. Estimates the same
-// radiance as `path`, without footprints, splitting and limits.
-//
-// [Kaj86] Kajiya. The rendering equation. SIGGRAPH 1986.
+// Path tracing (Kajiya, The rendering equation, SIGGRAPH 1986) in its shortest form, to read first.
+// Estimates the same radiance as `path`: at each vertex the emission that the ray met and the
+// direct light, both weighted by multiple importance sampling (direct_light.h).
 #include <vestige/direct_light.h>
 #include <vestige/layers.h>
 #include <vestige/plugin.h>
 #include <vestige/roulette.h>
 
-namespace vestige {
-namespace {
+namespace vestige::simple_plugin {
 
 class Simple final : public Integrator {
  public:
@@ -20,72 +18,73 @@ class Simple final : public Integrator {
             .name = "simple",
             .summary = "path tracing in ninety lines, to read and to copy",
             .params = {integer("samples", 16).range(1, 1 << 24).doc("paths a pixel"),
-                       integer("depth", 16)
-                           .range(1, 4096)
-                           .doc("longest path in edges from the camera: 1 sees emitters, 2 direct "
-                                "light")}};
+                       integer("depth", 16).range(1, 4096).doc("longest path in edges")}};
   }
 
   explicit Simple(const Values& v)
-      : samples_(int(v.integer(kSamples))), depth_(int(v.integer(kDepth))) {}
+      : samples_(std::uint32_t(v.integer(kSamples))), depth_(std::uint32_t(v.integer(kDepth))) {}
+  int samples() const noexcept override { return int(samples_); }
 
-  int samples() const noexcept override { return samples_; }
-
-  /// The radiance along one random path: at each vertex the emission that the ray met, and the
-  /// direct light. Both see the lights, so multiple importance sampling weighs them.
   Rgb estimate(PathContext& c) const noexcept override {
-    Rgb radiance, throughput{1, 1, 1}, flux{1, 1, 1};
-    Ray ray = c.ray;
-    DrawnRay drawn{ray.origin};
-    std::uint32_t layer = 0;
-    for (int edge = 1; edge <= depth_ && layer < kMaxLayers;) {
-      Surface s;
-      ++c.counters.rays;
-      if (!c.scene.intersect(ray, s))
-        return radiance + throughput * background(c.scene, drawn, ray.direction);
-      radiance += throughput * metLight(c.scene, s, drawn);
-
-      InputBuffer inputs;
-      const Interaction x = c.scene.shade(s, -ray.direction, {}, inputs);
-      const auto vertex = std::uint32_t(edge - 1);
-      const LayerEvent event = meetLayer(c.sampler, vertex, layer, c.sampler.index(), x);
-      throughput *= event.weight;
-      if (event.passes) {
-        ray = spawnRay(s, ray.direction);
-        ++layer;
-        continue;
-      }
-      layer = 0;
-      if (edge == 1 && c.aovs) writeAovs(*c.aovs, s, x);
-      if (edge == depth_) break;
-      radiance += throughput * directLight(c, s, x, vertex, c.sampler.index());
-
-      // The next ray, in a direction that the BRDF draws.
-      const std::uint32_t dim = dimension::vertex(vertex);
-      const auto next = drawScatter(x, {c.sampler.number(dim + dimension::kLobe),
-                                        c.sampler.pair(dim + dimension::kDirection)});
-      if (!next || isBlack(next->weight)) break;
-      if (edge == 1 && c.aovs) c.aovs->albedo = next->local.weight;
-      throughput *= next->weight;
-      flux *= next->local.weight;
-      drawn = {s.position, next->local.specular ? kInfinity : next->local.pdf};
-      ray = spawnRay(s, next->toNext);
-
-      // Russian roulette ends paths that carry little, and raises the weight of the others.
-      if (edge++ < kRouletteFrom) continue;
-      const Real survival = survivalProbability(flux);
-      if (!(c.sampler.number(dim + dimension::kRoulette) < survival)) break;
-      throughput = throughput / survival;
-      flux = flux / survival;
+    Path p{c.ray, {c.ray.origin}};
+    for (std::uint32_t vertex = 0; meet(c, p, vertex); ++vertex) {
+      if (vertex == 0 && c.aovs) writeAovs(*c.aovs, p.s, p.x);
+      if (vertex + 1 == depth_) break;
+      p.radiance += p.throughput * directLight(c, p.s, p.x, vertex, c.sampler.index());
+      if (!scatter(c, p, vertex)) break;
     }
-    return radiance;
+    return p.radiance;
   }
 
  private:
-  int samples_, depth_;
+  /// A path under way, and the surface that it reached.
+  struct Path {
+    Ray ray;
+    DrawnRay drawn;  ///< the same ray, for multiple importance sampling
+    Rgb radiance{}, throughput{1, 1, 1};
+    Surface s{};
+    InputBuffer inputs{};
+    Interaction x{};
+  };
+
+  /// To the surface where the path scatters; adds the light that it meets. False: there is none.
+  static bool meet(PathContext& c, Path& p, std::uint32_t vertex) noexcept {
+    for (std::uint32_t layer = 0; layer < kMaxLayers; ++layer) {
+      ++c.counters.rays;
+      if (!c.scene.intersect(p.ray, p.s)) {
+        p.radiance += p.throughput * background(c.scene, p.drawn, p.ray.direction);
+        return false;
+      }
+      p.radiance += p.throughput * metLight(c.scene, p.s, p.drawn);
+      c.scene.shade(p.s, -p.ray.direction, {}, p.inputs, p.x);
+      const LayerEvent event = meetLayer(c.sampler, vertex, layer, c.sampler.index(), p.x);
+      p.throughput *= event.weight;
+      if (!event.passes) return true;
+      p.ray = spawnRay(p.s, p.ray.direction);
+    }
+    p.radiance = kEndless;
+    return false;
+  }
+
+  /// Draws the next ray from the BRDF. False: the path ends.
+  static bool scatter(PathContext& c, Path& p, std::uint32_t vertex) noexcept {
+    const std::uint32_t dim = dimension::vertex(vertex);
+    const auto next = drawScatter(p.x, {c.sampler.number(dim + dimension::kLobe),
+                                        c.sampler.pair(dim + dimension::kDirection)});
+    if (!next || isBlack(next->weight)) return false;
+    if (vertex == 0 && c.aovs) c.aovs->albedo = next->local.weight;
+    p.throughput *= next->weight;
+    p.drawn = {p.s.position, next->local.specular ? kInfinity : next->local.pdf};
+    p.ray = spawnRay(p.s, next->toNext);
+    if (vertex + 1 < kRouletteFrom) return true;
+    const Real survival = survivalProbability(p.throughput);
+    p.throughput = p.throughput / survival;
+    return c.sampler.number(dim + dimension::kRoulette) < survival;
+  }
+
+  std::uint32_t samples_, depth_;
 };
 
-}  // namespace
-}  // namespace vestige
+}  // namespace vestige::simple_plugin
 
-VESTIGE_PLUGIN(vestige::Integrator, vestige::Simple)
+VESTIGE_PLUGIN(vestige::Integrator, vestige::simple_plugin::Simple)

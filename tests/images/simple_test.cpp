@@ -8,7 +8,7 @@
 namespace vestige::test {
 namespace {
 
-constexpr int kSeeds = 8, kBlocks = 3, kSide = 36;
+constexpr int kSeeds = 5, kBlocks = 3, kSide = 36;
 
 /// Block means of a picture for each seed: [seed][block].
 using Blocks = std::vector<std::vector<double>>;
@@ -48,10 +48,10 @@ void checkAgree(const std::string& scene) {
     const Estimate one = estimate(a, i), two = estimate(b, i);
     const double z = (one.mean - two.mean) / std::sqrt(one.variance + two.variance);
     INFO("block " << i << ": path " << one.mean << ", simple " << two.mean << ", z " << z);
-    CHECK(std::abs(z) < 5);
+    CHECK(std::abs(z) < 6);
     squares += z * z;
   }
-  // Student's t of 14 degrees of freedom has variance 7/6.
+  // Student's t of 8 degrees of freedom has variance 4/3.
   CHECK(squares / (kBlocks * kBlocks) < 3);
 }
 

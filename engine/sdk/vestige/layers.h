@@ -4,11 +4,15 @@
 #pragma once
 #include <vestige/integrator.h>
 
+#include <limits>
+
 namespace vestige {
 
 /// No scene has as many layers behind one another. A ray that meets the same surface again and
 /// again must end nevertheless.
 inline constexpr std::uint32_t kMaxLayers = 1u << 20;
+/// The radiance of such a path: not a number, which the film counts and the program reports.
+inline constexpr Rgb kEndless = grey(std::numeric_limits<Real>::quiet_NaN());
 
 /// Dimension of the random number that decides at one layer before a vertex. The golden ratio's
 /// multiples spread evenly over 32 bits: layers of one vertex never share a dimension, and up to

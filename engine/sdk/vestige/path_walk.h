@@ -14,8 +14,6 @@
 #include <vestige/path_report.h>
 #include <vestige/roulette.h>
 
-#include <limits>
-
 namespace vestige {
 
 /// A surface that a path reached, with its material looked up.
@@ -142,8 +140,8 @@ inline Rgb escaped(PathContext& c, EyePath& path) noexcept {
 }
 
 /// Follows a path to the surface where it scatters, through any number of transparent layers. Adds
-/// the radiance met on the way. False: the path left the scene. Past `maxLayers` the radiance is
-/// not a number, which the film counts and the program reports.
+/// the radiance met on the way. False: the path left the scene, or the radiance is kEndless after
+/// `maxLayers`.
 inline bool walk(PathContext& c, EyePath& path, Vertex& v, Rgb& radiance,
                  const WalkRules& rules = {}) noexcept {
   for (std::uint32_t layer = 0; layer < rules.maxLayers; ++layer) {
@@ -161,7 +159,7 @@ inline bool walk(PathContext& c, EyePath& path, Vertex& v, Rgb& radiance,
       c.scene.shade(v.s, toPrev, regionAt(c.scene, v.s, path.footprint), v.inputs, v.x);
     if (v.x.opacity >= 1 || !passes(c, path, v, layer)) return true;
   }
-  radiance = grey(std::numeric_limits<Real>::quiet_NaN());
+  radiance = kEndless;
   return false;
 }
 
