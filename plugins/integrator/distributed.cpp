@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distributed ray tracing: a tree of rays, every scattering split into several, stratified
-// [CPC84]; textures filtered over the footprint of the path that leads to them [PD01 Sec. 4.1].
+// Distributed ray tracing: a tree of rays in which every scattering splits into several, stratified
+// [CPC84]. Textures are filtered over the footprint of the path that leads to them [PD01 Sec. 4.1].
 //
 // [CPC84] Cook, Porter, Carpenter. Distributed ray tracing. SIGGRAPH 1984.
 // [PD01]  Suykens, Willems. Path differentials and applications. EGWR 2001.
-#include <vestige/direct_light.h>
-#include <vestige/footprint/language.h>
-#include <vestige/path_report.h>
+#include <vestige/path_walk.h>
 #include <vestige/plugin.h>
 
 #include <optional>
@@ -15,44 +13,8 @@
 namespace vestige {
 namespace {
 
-constexpr int kMaxLayers = 64;  ///< passed without scattering, as for shadow rays
 constexpr int kMaxSplit = 256;
 constexpr int kMaxDepth = 64;  ///< the tree is walked by recursion
-
-/// How N' numbers of a pair are stratified: a net of points where N' is a power of two, else a
-/// grid of rows and columns as square as N' allows: 6 as 2 x 3.
-struct Split {
-  int count = 1, columns = 0, rows = 0;  ///< no columns: a net
-
-  explicit Split(int n) : count(n) {
-    if ((n & (n - 1)) == 0) return;
-    for (rows = int(std::sqrt(double(n))); n % rows != 0;) --rows;
-    columns = n / rows;
-  }
-  Strata strata() const noexcept {
-    if (columns == 0) return squareStrata(count);
-    return {Real(columns), Real(rows)};
-  }
-  Vec2 pair(const Sampler& s, std::uint32_t dim, std::uint32_t index) const noexcept {
-    const Vec2 u = s.pair(dim, index);
-    if (columns == 0) return u;
-    const int cell = int(index % std::uint32_t(count));
-    const auto within = [](Real x, int i, int n) {
-      return std::min((Real(i) + x) / Real(n), kOneMinusEpsilon);
-    };
-    return {within(u.x, cell % columns, columns), within(u.y, cell / columns, rows)};
-  }
-};
-
-/// A ray of the tree.
-struct Node {
-  Ray ray;
-  DrawnRay drawn;
-  std::uint32_t index;  ///< among all nodes of its level: sample N' + child, and so on
-  int edge;             ///< from the camera, 1 the first
-  PathFootprint<>* footprint;
-  PathReport report;
-};
 
 class Distributed final : public Integrator {
  public:
@@ -85,149 +47,120 @@ class Distributed final : public Integrator {
   int samples() const noexcept override { return samples_; }
 
   Rgb estimate(PathContext& c) const noexcept override {
-    Node root{c.ray, {c.ray.origin, kInfinity, 1}, c.sampler.index(), 1, nullptr, PathReport(c)};
+    EyePath root(c);
     PathFootprint<> footprint;
-    if (carriesFootprint(c, footprint_)) {
-      footprint.begin(c, footprint_);
-      root.footprint = &footprint;
-    }
-    return radiance(c, root, sizeOf(c.scene));
+    if (carriesFootprint(c, footprint_)) root.carry(footprint, c, footprint_);
+    return radiance(c, root);
   }
 
  private:
-  /// What comes along a ray: what shines on its way, and the tree behind the surface it meets.
-  Rgb radiance(PathContext& c, Node& node, Real size) const noexcept {
+  /// A drawn ray of a split. All rays through one specular lobe are the same ray: one is followed
+  /// and counts for all.
+  struct Child {
+    Scatter next;
+    ScatterNumbers numbers;
+    RandomStream stream;
+    Real count = 1;
+  };
+  static constexpr int kMaxSpecular = 4;  ///< lobes; further ones are followed ray by ray
+
+  /// Radiance along the ray of a node, with the tree behind the surface that it reaches.
+  Rgb radiance(PathContext& c, EyePath& node) const noexcept {
     Rgb sum;
-    for (int layer = 0; layer < kMaxLayers; ++layer) {
-      ++c.counters.rays;
-      const std::optional<Surface> hit = c.scene.intersect(node.ray);
-      if (!hit) return sum + escaped(c, node);
-      PathFootprint<>* f = node.footprint;
-      if (f) f->arrive(*hit, size);
-      sum += metLight(c.scene, *hit, node.drawn);
-      InputBuffer buffer;
-      const Vec3 toPrev = -node.ray.direction;
-      Interaction x;
-      if (node.edge > 1 && node.edge == depth_)
-        lastSurface(c.scene, *hit, toPrev, x);
-      else
-        c.scene.shade(*hit, toPrev, regionAt(c.scene, *hit, f), buffer, x);
-      if (node.edge == 1 && layer == 0 && c.aovs) writeAovs(*c.aovs, *hit, x);
-      if (stays(c, node, x, layer)) return sum + reflected(c, node, *hit, x, size);
-      node.report.end(*hit, x.toPrev, grey(1), "pass", f);
-      node.ray = spawnRay(*hit, node.ray.direction);
-    }
-    return sum;
-  }
-
-  static Rgb escaped(PathContext& c, Node& node) noexcept {
-    node.report.gone("escape", node.ray.direction, grey(1));
-    return filteredBackground(c.scene, node.drawn, node.ray.direction, node.footprint);
-  }
-
-  /// Whether the ray ends at a surface that may be partly transparent.
-  static bool stays(PathContext& c, Node& node, const Interaction& x, int layer) noexcept {
-    if (x.opacity >= 1) return true;
-    const std::uint32_t dim = dimension::vertex(std::uint32_t(node.edge - 1)) +
-                              dimension::kOpacity + 0x10000u * std::uint32_t(layer);
-    const bool stays = c.sampler.number(dim, node.index) < x.opacity;
-    if (node.footprint) node.footprint->chance(stays ? x.opacity : 1 - x.opacity);
-    return stays;
+    Vertex v;
+    if (!walk(c, node, v, sum, {.lastEdge = depth_})) return sum;
+    if (node.edge == 1 && c.aovs) writeAovs(*c.aovs, v.s, v.x);
+    return sum + node.throughput * reflected(c, node, v);
   }
 
   /// Direct light, and the mean of the split's rays.
-  Rgb reflected(PathContext& c, Node& node, const Surface& s, const Interaction& x,
-                Real size) const noexcept {
-    if (node.edge == depth_ || !x.brdf) {
-      node.report.end(s, x.toPrev, grey(1), "end", node.footprint);
+  Rgb reflected(PathContext& c, EyePath& node, const Vertex& v) const noexcept {
+    if (node.edge == depth_ || !v.x.brdf) {
+      node.report.end(v.s, v.x.toPrev, grey(1), "end", node.footprint);
       return {};
     }
     Rgb direct;
-    for (int i = 0; i < lightSamples_; ++i)
-      direct += directLight(c, s, x, std::uint32_t(node.edge - 1),
-                            node.index * std::uint32_t(lightSamples_) + std::uint32_t(i),
+    for (int i = 0; i < lightSamples_; ++i) {
+      const RandomStream stream = node.stream.child(lightSamples_, i);
+      direct += directLight(c, v.s, v.x, stream.vertex(node.edge), stream.index,
                             Real(lightSamples_), Real(split_.count), node.footprint);
-    return direct / Real(lightSamples_) + scattered(c, node, s, x, size);
+    }
+    return direct / Real(lightSamples_) + scattered(c, node, v);
   }
 
-  Rgb scattered(PathContext& c, Node& node, const Surface& s, const Interaction& x,
-                Real size) const noexcept {
-    const std::uint32_t dim = dimension::vertex(std::uint32_t(node.edge - 1));
+  Rgb scattered(PathContext& c, EyePath& node, const Vertex& v) const noexcept {
     Rgb sum;
-    SpecularChild specular[kMaxSpecular];
+    Child specular[kMaxSpecular];
     int lobes = 0;
-    Report report{&node.report};
-    for (int child = 0; child < split_.count; ++child) {
-      const std::uint32_t index = node.index * std::uint32_t(split_.count) + std::uint32_t(child);
-      const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe, index),
-                                   split_.pair(c.sampler, dim + dimension::kDirection, index)};
-      const auto next = drawScatter(x, numbers);
-      if (!next || isBlack(next->weight)) continue;
-      if (node.edge == 1 && c.aovs) c.aovs->albedo += next->local.weight / Real(split_.count);
-      if (next->local.specular && joins(specular, lobes, *next)) continue;
-      if (next->local.specular && lobes < kMaxSpecular)
-        specular[lobes++] = {*next, numbers, index, 1};
+    PathReport* report = &node.report;
+    for (int i = 0; i < split_.count; ++i) {
+      const std::optional<Child> child = draw(c, node, v, i);
+      if (!child) continue;
+      const bool isSpecular = child->next.local.specular;
+      if (isSpecular && joins(specular, lobes, child->next)) continue;
+      if (isSpecular && lobes < kMaxSpecular)
+        specular[lobes++] = *child;
       else
-        sum += next->weight * followed(c, node, s, x, *next, numbers, index, report, size);
+        sum += followed(c, node, v, *child, report);
     }
-    for (int i = 0; i < lobes; ++i) {
-      const SpecularChild& one = specular[i];
-      sum += one.count * one.next.weight *
-             followed(c, node, s, x, one.next, one.numbers, one.index, report, size);
-    }
-    if (report.first) node.report.end(s, x.toPrev, grey(1), "absorbed", node.footprint);
+    for (int i = 0; i < lobes; ++i) sum += followed(c, node, v, specular[i], report);
+    if (report) report->end(v.s, v.x.toPrev, grey(1), "absorbed", node.footprint);
     return sum / Real(split_.count);
   }
 
-  /// All rays through one specular lobe are the same ray: one of them stands for them.
-  struct SpecularChild {
-    Scatter next;
-    ScatterNumbers numbers;
-    std::uint32_t index;
-    Real count;
-  };
-  static constexpr int kMaxSpecular = 4;  ///< lobes; those of a BRDF that has more go one by one
+  /// Child i of the split; empty if it is absorbed.
+  std::optional<Child> draw(PathContext& c, const EyePath& node, const Vertex& v,
+                            int i) const noexcept {
+    const RandomStream stream = node.stream.child(split_.count, i);
+    const std::uint32_t dim = dimension::vertex(stream.vertex(node.edge));
+    const ScatterNumbers numbers{
+        c.sampler.number(dim + dimension::kLobe, stream.index),
+        split_.pair(c.sampler, dim + dimension::kDirection, stream.index, i)};
+    const std::optional<Scatter> next = drawScatter(v.x, numbers);
+    if (!next || isBlack(next->weight)) return std::nullopt;
+    if (node.edge == 1 && c.aovs) c.aovs->albedo += next->local.weight / Real(split_.count);
+    return Child{*next, numbers, stream};
+  }
 
-  static bool joins(SpecularChild* known, int lobes, const Scatter& next) noexcept {
-    for (int i = 0; i < lobes; ++i)
-      if (known[i].next.local.lobe == next.local.lobe) return ++known[i].count, true;
+  /// Counts a specular ray to one through the same lobe. False: there is none yet.
+  static bool joins(Child* known, int lobes, const Scatter& next) noexcept {
+    for (int i = 0; i < lobes; ++i) {
+      if (known[i].next.local.lobe != next.local.lobe) continue;
+      ++known[i].count;
+      return true;
+    }
     return false;
   }
 
-  /// The first ray followed is the one that is told.
-  struct Report {
-    PathReport* first;
-    PathReport* take() noexcept { return std::exchange(first, nullptr); }
-  };
-
-  /// The tree behind one drawn ray; `index` among the nodes of its level.
-  Rgb followed(PathContext& c, const Node& node, const Surface& s, const Interaction& x,
-               const Scatter& next, ScatterNumbers numbers, std::uint32_t index, Report& reports,
-               Real size) const noexcept {
-    PathReport* report = reports.take();
-    if (report) report->scatter(s, x.toPrev, grey(1), next, node.footprint);
-    Node below{spawnRay(s, next.toNext),
-               {s.position, next.local.specular ? kInfinity : Real(split_.count) * next.local.pdf,
-                Real(lightSamples_)},
-               index,
-               node.edge + 1,
-               nullptr,
-               PathReport()};
+  /// Weighted radiance of one drawn ray and the tree behind it. Only the first ray followed is
+  /// recorded: it takes `report`.
+  Rgb followed(PathContext& c, const EyePath& node, const Vertex& v, const Child& child,
+               PathReport*& report) const noexcept {
+    const Scatter& next = child.next;
+    PathReport* recorded = std::exchange(report, nullptr);
+    if (recorded) recorded->scatter(v.s, v.x.toPrev, grey(1), next, node.footprint);
+    EyePath below;
+    below.leave(v.s, next, split_.count);
+    below.throughput = grey(1);  // the sum is weighted on the way back
+    below.drawn.lightSamples = Real(lightSamples_);
+    below.stream = child.stream;
+    below.edge = node.edge + 1;
+    below.sceneSize = node.sceneSize;
     std::optional<PathFootprint<>> footprint;
     if (node.footprint && (below.edge < depth_ || lastEdgeCarries(c, next))) {
-      footprint.emplace(*node.footprint);
-      footprint->scatter(s, x, next, numbers, next.local.specular ? Strata{} : split_.strata());
-      below.footprint = &*footprint;
+      below.footprint = &footprint.emplace(*node.footprint);
+      const Strata strata = next.local.specular ? Strata{} : split_.strata();
+      below.footprint->scatter(v.s, v.x, next, child.numbers, strata);
     }
-    if (report) {
-      report->left(below.footprint);
-      below.report = *report;
+    if (recorded) {
+      recorded->left(below.footprint);
+      below.report = *recorded;
     }
-    return radiance(c, below, size);
+    return child.count * next.weight * radiance(c, below);
   }
 
   int samples_, lightSamples_, depth_;
-  Split split_;
+  SplitStrata split_;
   FootprintSettings footprint_;
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Path tracing: next-event estimation and scattering, combined by multiple importance sampling;
-// Russian roulette. Paths carry their footprint where a texture looks at it.
+// Path tracing with all that makes it efficient: next-event estimation and scattering combined by
+// multiple importance sampling, Russian roulette, splitting at the first scattering, both lobes
+// inside a rough dielectric, and footprints for filtered textures. `simple.cpp` is the same method
+// without all this; read that first.
 //
 // [Kaj86] Kajiya. The rendering equation. SIGGRAPH 1986.
 // [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
-#include <vestige/direct_light.h>
-#include <vestige/footprint/language.h>
-#include <vestige/path_report.h>
+#include <vestige/path_walk.h>
 #include <vestige/plugin.h>
 
 #include <optional>
@@ -15,70 +15,20 @@
 namespace vestige {
 namespace {
 
-/// Roulette starts with this scattering; before, paths are too valuable.
-constexpr int kRouletteFrom = 4;
-/// Nobody survives for certain: a closed room of white walls still ends.
-constexpr Real kMaxSurvival = Real(0.95);
-/// Passing through this many layers without scattering ends a path, as it blocks a shadow ray.
-constexpr int kMaxLayers = 64;
-
 constexpr int kMaxSplit = 256;
-/// Of edges, and of scatterings of a kind; roulette ends all paths long before.
+/// Of edges, and of scatterings of a kind. Roulette ends all paths long before.
 constexpr int kNoLimit = 4096;
-
-/// Where a path scatters.
-struct Vertex {
-  Surface s;
-  Interaction x;
-  InputBuffer inputs;
-};
 
 /// The vertex that a path is at, and the one before.
 using Vertices = Vertex[2];
 
-/// A continuation as it was drawn, and the numbers it was drawn with.
-struct Way {
-  ScatterNumbers numbers;
-  std::optional<Scatter> scatter;  ///< empty: absorbed
-};
-
 /// A path under way.
-struct Path {
-  Ray ray;
-  DrawnRay drawn;
-  std::uint32_t index = 0;  ///< of its numbers: the sample's; behind the split sample * rays + ray
-  int edge = 1;             ///< under way, from the camera
-  int rough = 0, specular = 0;  ///< scatterings so far
-  int rays = 1;                 ///< into which it is still to split
-  bool hasForked = false;       ///< went both ways inside ground glass
-  Rgb throughput{1, 1, 1};
-  Rgb flux{1, 1, 1};                     ///< throughput without eta^2: what roulette decides by
-  PathFootprint<>* footprint = nullptr;  ///< null: carries none
-  Real sceneSize = 0;
-  PathReport report;
-
-  /// The last scattering, as long as the footprint has not gone through it: half of all rays leave
-  /// the scene or meet a light, and nobody asks. Null: it has.
-  const Vertex* scatteredAt = nullptr;
-  Scatter scattered{};
-  ScatterNumbers numbers{};
-  int siblings = 1;
-
-  void arrive(const Surface& s) noexcept {
-    if (!footprint) return;
-    catchUp();
-    footprint->arrive(s, sceneSize);
-  }
-  void catchUp() noexcept {
-    if (footprint && scatteredAt)
-      footprint->scatter(scatteredAt->s, scatteredAt->x, scattered, numbers,
-                         squareStrata(siblings));
-    scatteredAt = nullptr;
-  }
-
-  void chance(Real probability) noexcept {
-    if (footprint) footprint->chance(probability);
-  }
+struct Path : EyePath {
+  using EyePath::EyePath;
+  int rough = 0;           ///< scatterings so far that were not specular
+  int specular = 0;        ///< specular scatterings so far
+  int rays = 1;            ///< into which it splits at its first scattering that is not specular
+  bool hasForked = false;  ///< followed both lobes inside a rough dielectric
 };
 
 class PathIntegrator final : public Integrator {
@@ -122,21 +72,17 @@ class PathIntegrator final : public Integrator {
         roughDepth_(int(v.integer(kRoughDepth))),
         specularDepth_(int(v.integer(kSpecularDepth))),
         footprint_(footprintSettings(v.block(kFootprint), Bound::global)),
-        clamp_(v.has(kClamp) ? v.real(kClamp) : kInfinity) {}
+        clamp_{v.has(kClamp) ? v.real(kClamp) : kInfinity} {}
 
   int samples() const noexcept override { return samples_; }
 
   Rgb estimate(PathContext& context) const noexcept override {
-    Path path{.ray = context.ray,
-              .drawn = {context.ray.origin},
-              .index = context.sampler.index(),
-              .rays = split_,
-              .report = PathReport(context)};
+    Path path(context);
+    path.rays = split_;
     Vertices vertices;
     if (!carriesFootprint(context, footprint_)) return trace(context, path, vertices);
     PathFootprint<> footprint;
-    footprint.begin(context, footprint_);
-    path.footprint = &footprint, path.sceneSize = sizeOf(context.scene);
+    path.carry(footprint, context, footprint_);
     return trace(context, path, vertices);
   }
 
@@ -145,7 +91,7 @@ class PathIntegrator final : public Integrator {
     Rgb radiance;
     for (; path.edge <= depth_; ++path.edge) {
       Vertex& v = vertices[path.edge % 2];
-      if (!next(c, path, v, radiance)) break;
+      if (!walk(c, path, v, radiance, {depth_, clamp_})) break;
       if (path.edge == 1 && c.aovs) writeAovs(*c.aovs, v.s, v.x);
       if (path.edge == depth_) {
         path.report.end(v.s, v.x.toPrev, path.throughput, "end", path.footprint);
@@ -153,35 +99,35 @@ class PathIntegrator final : public Integrator {
       }
       if (path.rough < roughDepth_) radiance += direct(c, path, v);
       if (path.rays > 1) return radiance + split(c, path, v);
-      const Way way = draw(c, path, v);
+      const Continuation next = draw(c, path, v);
       if (!path.hasForked)
-        if (const auto other = otherWay(v, way)) return radiance + fork(c, path, v, way, *other);
-      if (!scatter(c, path, v, way)) break;
+        if (const auto other = otherLobe(v.x, next))
+          return radiance + fork(c, path, v, next, *other);
+      if (!scatter(c, path, v, next)) break;
     }
     return radiance;
   }
 
   Rgb direct(PathContext& c, const Path& path, const Vertex& v) const noexcept {
-    const auto vertex = std::uint32_t(path.edge - 1);
-    return clamped(c, path.edge + 1,
-                   path.throughput * directLight(c, v.s, v.x, vertex, path.index, 1,
-                                                 Real(path.rays), path.footprint));
+    return clamp_(c, path.edge + 1,
+                  path.throughput * directLight(c, v.s, v.x, path.vertex(), path.stream.index, 1,
+                                                Real(path.rays), path.footprint));
   }
 
-  /// The mean of what comes along several rays from here.
+  /// The mean of the radiance along several rays from here.
   Rgb split(PathContext& c, const Path& path, const Vertex& v) const noexcept {
     Rgb sum;
     Vertices vertices;
     for (int i = 0; i < path.rays; ++i) {
       Path ray = path;
-      ray.index = path.index * std::uint32_t(path.rays) + std::uint32_t(i);
+      ray.stream = path.stream.child(path.rays, i);
       std::optional<PathFootprint<>> footprint;
       if (path.footprint) ray.footprint = &footprint.emplace(*path.footprint);
-      if (i > 0) ray.report = PathReport();  // the first is told
+      if (i > 0) ray.report = PathReport();  // only the first ray is recorded
       const bool goesOn = scatter(c, ray, v, draw(c, ray, v));
-      // A mirror leaves no choice: one ray stands for all, and splits where it comes to.
+      // A mirror has only one continuation: follow a single ray and split at the next vertex.
       const bool isOnly = i == 0 && ray.rays > 1;
-      if (isOnly) ray.index = path.index;
+      if (isOnly) ray.stream = path.stream;
       ++ray.edge;
       if (goesOn) sum += trace(c, ray, vertices);
       if (isOnly) return sum;
@@ -189,99 +135,38 @@ class PathIntegrator final : public Integrator {
     return sum / Real(path.rays);
   }
 
-  /// The other way on, where ground glass is met from inside: one ray of 25 is reflected
-  /// there, and may bring all of a lamp. Empty: there are not just these two ways. Whether there
-  /// are depends on what moved `way`, not on which of the two it is.
-  static std::optional<Way> otherWay(const Vertex& v, const Way& way) noexcept {
-    if (!v.x.point.behind || !way.scatter || way.scatter->local.specular) return std::nullopt;
-    const ScatterSample& drawn = way.scatter->local;
-    if (!(drawn.lobeChance < 1)) return std::nullopt;
-    constexpr Real kFirst = 0, kLast = Real(0x1.fffffep-1);
-    for (const Real lobe : {kFirst, kLast}) {
-      const ScatterNumbers numbers{lobe, way.numbers.u};
-      const Way other{numbers, drawScatter(v.x, numbers)};
-      if (!other.scatter) return std::nullopt;
-      const ScatterSample& found = other.scatter->local;
-      if (found.lobe == drawn.lobe) continue;
-      if (found.specular || (found.toNext.z > 0) == (drawn.toNext.z > 0)) return std::nullopt;
-      const bool areAll = std::abs(drawn.lobeChance + found.lobeChance - 1) < Real(1e-4);
-      return areAll ? std::optional(other) : std::nullopt;
-    }
-    return std::nullopt;
-  }
-
-  /// What comes along both ways: neither is left to chance.
-  Rgb fork(PathContext& c, const Path& path, const Vertex& v, const Way& drawn,
-           const Way& other) const noexcept {
+  /// The sum of the radiance of both lobes inside a rough dielectric, which leaves neither to
+  /// chance.
+  Rgb fork(PathContext& c, const Path& path, const Vertex& v, const Continuation& drawn,
+           const Continuation& other) const noexcept {
     Rgb sum;
     Vertices vertices;
-    for (const Way* way : {&drawn, &other}) {
+    for (const Continuation* next : {&drawn, &other}) {
       Path branch = path;
       branch.hasForked = true;
       std::optional<PathFootprint<>> footprint;
       if (path.footprint) branch.footprint = &footprint.emplace(*path.footprint);
-      if (way == &other) branch.report = PathReport();
-      Way certain = *way;
-      Scatter& s = *certain.scatter;
-      const Real chance = std::exchange(s.local.lobeChance, 1);
-      s.weight = chance * s.weight, s.local.weight = chance * s.local.weight;
-      const bool goesOn = scatter(c, branch, v, certain);
+      if (next == &other) {
+        branch.report = PathReport();
+        // With equal numbers the errors of the two branches would add up.
+        branch.stream = path.stream.forked();
+      }
+      const bool goesOn = scatter(c, branch, v, madeCertain(*next));
       ++branch.edge;
       if (goesOn) sum += trace(c, branch, vertices);
     }
     return sum;
   }
 
-  /// Follows the ray to the surface where it scatters; adds what shines on the way. False: it left
-  /// the scene.
-  bool next(PathContext& c, Path& path, Vertex& v, Rgb& radiance) const noexcept {
-    for (int layer = 0; layer < kMaxLayers; ++layer) {
-      ++c.counters.rays;
-      if (!c.scene.intersect(path.ray, v.s)) {
-        if (path.drawn.isUnrivalled()) path.catchUp();
-        radiance +=
-            clamped(c, path.edge,
-                    path.throughput * filteredBackground(c.scene, path.drawn, path.ray.direction,
-                                                         path.footprint));
-        path.report.gone("escape", path.ray.direction, path.throughput);
-        return false;
-      }
-      path.arrive(v.s);
-      radiance += clamped(c, path.edge, path.throughput * metLight(c.scene, v.s, path.drawn));
-      const Vec3 toPrev = -path.ray.direction;
-      if (path.edge > 1 && path.edge == depth_)
-        lastSurface(c.scene, v.s, toPrev, v.x);
-      else
-        c.scene.shade(v.s, toPrev, regionAt(c.scene, v.s, path.footprint), v.inputs, v.x);
-      if (v.x.opacity >= 1) return true;
-      const std::uint32_t dim = dimension::vertex(path.edge - 1) + dimension::kOpacity;
-      // Layers beyond the first have numbers of their own, far from those of any vertex.
-      const bool stays = c.sampler.number(dim + 0x10000u * layer, path.index) < v.x.opacity;
-      path.chance(stays ? v.x.opacity : 1 - v.x.opacity);
-      if (stays) return true;
-      path.report.end(v.s, toPrev, path.throughput, "pass", path.footprint);
-      path.ray = spawnRay(v.s, path.ray.direction);
-    }
-    return false;
-  }
-
-  /// What light brings that came along so many edges, cut down to the scene's `clamp`.
-  Rgb clamped(PathContext& c, int edges, Rgb light) const noexcept {
-    if (edges <= 2 || !(maxComponent(light) > clamp_)) return light;
-    ++c.counters.clampedIndirect;
-    return clamp_ / maxComponent(light) * light;
-  }
-
-  static Way draw(PathContext& c, const Path& path, const Vertex& v) noexcept {
-    const std::uint32_t dim = dimension::vertex(path.edge - 1);
-    const ScatterNumbers numbers{c.sampler.number(dim + dimension::kLobe, path.index),
-                                 c.sampler.pair(dim + dimension::kDirection, path.index)};
+  static Continuation draw(PathContext& c, const Path& path, const Vertex& v) noexcept {
+    const ScatterNumbers numbers = path.scatterNumbers(c.sampler);
     return {numbers, drawScatter(v.x, numbers)};
   }
 
-  /// Takes that way, one of the split's unless there is no choice. False where the path ends.
-  bool scatter(PathContext& c, Path& path, const Vertex& v, const Way& way) const noexcept {
-    const std::optional<Scatter>& drawn = way.scatter;
+  /// Takes a continuation, one of a split's unless it is the only one. False: the path ends.
+  bool scatter(PathContext& c, Path& path, const Vertex& v,
+               const Continuation& next) const noexcept {
+    const std::optional<Scatter>& drawn = next.scatter;
     const bool isOnly = drawn && drawn->local.specular && drawn->local.lobeChance == 1;
     const int siblings = isOnly ? 1 : std::exchange(path.rays, 1);
     if (path.edge == 1 && c.aovs && drawn) c.aovs->albedo += drawn->local.weight / Real(siblings);
@@ -291,46 +176,27 @@ class PathIntegrator final : public Integrator {
       return false;
     }
     path.report.scatter(v.s, v.x.toPrev, path.throughput, *drawn, path.footprint);
-    path.throughput *= drawn->weight;
-    path.flux *= drawn->local.weight;
-    path.drawn.from = v.s.position;
-    path.drawn.density = drawn->local.specular ? kInfinity : Real(siblings) * drawn->local.pdf;
-    path.ray = spawnRay(v.s, drawn->toNext);
+    path.leave(v.s, *drawn, siblings);
     const bool goesOn =
         !isBlack(path.throughput) &&
-        (path.edge < kRouletteFrom ||
-         survives(path, c.sampler.number(dimension::vertex(path.edge - 1) + dimension::kRoulette,
-                                         path.index)));
+        (path.edge < kRouletteFrom || path.survives(path.number(c.sampler, dimension::kRoulette)));
     if (path.edge + 1 == depth_ && !lastEdgeCarries(c, *drawn)) path.footprint = nullptr;
-    if (path.footprint && (goesOn || path.report.isWaiting())) {
-      path.scatteredAt = &v, path.scattered = *drawn;
-      path.numbers = way.numbers, path.siblings = siblings;
-    }
+    if (path.footprint && (goesOn || path.report.isWaiting()))
+      path.pending = {&v, *drawn, next.numbers, siblings};
     if (path.report.isWaiting()) path.catchUp();
     path.report.left(path.footprint);
     if (!goesOn) path.report.gone("roulette", drawn->toNext, path.throughput);
     return goesOn;
   }
 
-  /// Counts a scattering; true if its kind is used up.
+  /// Counts a scattering. True: its kind is used up.
   bool isTooMuch(Path& path, bool specular) const noexcept {
     return specular ? path.specular++ >= specularDepth_ : path.rough++ >= roughDepth_;
   }
 
-  /// Russian roulette by the root of what is left of the flux: by the flux itself the few that
-  /// survive weigh so much that cornell's noise, times its cost, is a fifth larger.
-  static bool survives(Path& path, Real u) noexcept {
-    const Real survival = std::min(kMaxSurvival, std::sqrt(maxComponent(path.flux)));
-    if (!(u < survival)) return false;
-    path.chance(survival);
-    path.throughput = path.throughput / survival;
-    path.flux = path.flux / survival;
-    return true;
-  }
-
   int samples_, split_, depth_, roughDepth_, specularDepth_;
   FootprintSettings footprint_;
-  Real clamp_;  ///< infinite: none
+  IndirectClamp clamp_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lights bring to a vertex, two ways at once: drawn towards them (next-event estimation), and
-// met by the rays that scattering drew. Multiple importance sampling weighs them [Vea97 9.2].
-// Shared by all integrators that follow paths from the eye.
+// Direct light at a vertex, estimated in two ways: by directions drawn towards lights (next-event
+// estimation), and by the rays that scattering draws where they meet a light. Multiple importance
+// sampling weighs the two [Vea97 9.2]. Shared by all integrators that follow paths from the eye.
 //
 // [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
 #pragma once
@@ -10,33 +10,45 @@
 
 namespace vestige {
 
-/// A ray as multiple importance sampling sees it.
+/// What multiple importance sampling has to know of a ray.
 struct DrawnRay {
-  Vec3 from;                 ///< where the last scattering was: what light densities are asked from
-  Real density = kInfinity;  ///< of its direction times how many were drawn, 1/sr; infinite after
-                             ///< the camera and specular events: then no light was drawn against it
-  Real lightSamples = 1;     ///< drawn towards lights at `from`
+  Vec3 from;                 ///< the last scattering, where directions to lights were drawn too
+  Real density = kInfinity;  ///< pdf of its direction times the number of such rays, 1/sr; infinite
+                             ///< for rays from the camera and from specular lobes
+  Real lightSamples = 1;     ///< directions drawn towards lights at `from`
+  /// Whether next-event estimation cannot find the same light. The MIS weight is 1 then, and the
+  /// light's own pdf need not be evaluated.
   bool isUnrivalled() const noexcept { return !(density < kInfinity); }
 };
 
 /// The radiance of a light that the ray met, weighted.
 inline Rgb metLight(const SceneView& scene, const Surface& s, const DrawnRay& ray) noexcept {
   if (s.light < 0) return {};
+  const Rgb radiance = scene.emitted(s, ray.from);
+  if (ray.isUnrivalled()) return radiance;
   const Real rival = ray.lightSamples * scene.lightPdf(s, ray.from);
-  return powerHeuristic(ray.density, rival) * scene.emitted(s, ray.from);
+  return powerHeuristic(ray.density, rival) * radiance;
 }
 
-/// What lights at infinity add to a ray that left the scene. `spread`: two vectors across the
-/// direction over which they are averaged, if any.
+/// The radiance of the lights at infinity along a ray that left the scene, weighted. `spread`: two
+/// vectors across the direction over which they are averaged, if any.
 inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 direction,
                       const Vec3* spread = nullptr) noexcept {
   Rgb sum;
   for (const int i : scene.infiniteLights()) {
     const Light& light = *scene.lights()[std::size_t(i)];
     LightHit hit{ray.from, direction, kInfinity, {}, {}, {}};
-    if (spread) hit.spread[0] = spread[0], hit.spread[1] = spread[1];
+    if (spread) {
+      hit.spread[0] = spread[0];
+      hit.spread[1] = spread[1];
+    }
+    const Rgb radiance = light.eval(hit);
+    if (ray.isUnrivalled()) {
+      sum += radiance;
+      continue;
+    }
     const Real rival = ray.lightSamples * scene.lightChance(i, ray.from) * light.pdf(hit);
-    sum += powerHeuristic(ray.density, rival) * light.eval(hit);
+    sum += powerHeuristic(ray.density, rival) * radiance;
   }
   return sum;
 }
@@ -44,8 +56,8 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
 /// A point of a light, drawn from a surface.
 struct TowardsLight {
   const Light* light = nullptr;
-  Vec2 u{};                             ///< the light's own numbers
-  Real chance = 0;                      ///< of choosing it
+  Vec2 u{};                             ///< random numbers of the point
+  Real chance = 0;                      ///< probability of choosing the light
   std::optional<LightSample> sample{};  ///< empty: nothing arrives
 };
 
@@ -53,7 +65,7 @@ struct TowardsLight {
 inline TowardsLight drawLight(PathContext& c, const Surface& s, std::uint32_t vertex,
                               std::uint32_t index) noexcept {
   const std::uint32_t dim = dimension::vertex(vertex);
-  // One pair chooses the light and then its point: so the points are stratified on each light.
+  // One pair chooses the light and then the point on it, so points are stratified on each light.
   Vec2 u = c.sampler.pair(dim + dimension::kLight, index);
   const auto choice = c.scene.chooseLight(s.position, u.x);
   if (!choice) return {};
@@ -64,8 +76,8 @@ inline TowardsLight drawLight(PathContext& c, const Surface& s, std::uint32_t ve
   return {light, u, choice->chance, light->sample(s.position, u)};
 }
 
-/// What arrives from there and is reflected, weighted as one of `samples`; `scattered` rays are
-/// drawn besides.
+/// Reflected radiance of that point, weighted as one of `samples` against `scattered` rays that
+/// scattering draws.
 inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x,
                           const TowardsLight& towards, Real samples, Real scattered) noexcept {
   if (!towards.sample) return {};

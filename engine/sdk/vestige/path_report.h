@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an integrator tells about a path on its way, for those who asked: footprint AOVs, and the
-// record that `inspect` prints and the window draws. Costs nothing where nobody did.
+// Reports on a path under way: footprint AOVs, and the record that `inspect` prints and the window
+// draws. Costs nothing where neither is wanted.
 #pragma once
 #include <vestige/direct_light.h>
 #include <vestige/footprint.h>
@@ -12,21 +12,22 @@ inline bool carriesFootprint(const PathContext& c, const FootprintSettings& sett
   return settings.isOn() && (c.wantsFootprint || c.record || c.scene.usesFootprints());
 }
 
-/// The region that shade() is to look up: nothing where nothing there asks, or none is carried.
+/// The region over which shade() looks textures up; empty where the path carries no footprint or
+/// the material uses none.
 template <int Lanes>
 Footprint regionAt(const SceneView& scene, const Surface& s,
                    const PathFootprint<Lanes>* f) noexcept {
   return f && scene.usesFootprint(s) ? f->footprint() : Footprint{};
 }
 
-/// Whether the last edge of a path, once drawn, still needs its footprint: nothing is textured
-/// where it ends, so only for what shines behind a specular event, or for somebody who looks on.
+/// Whether the last edge of a path, once drawn, still needs its footprint. No texture is evaluated
+/// at its end, so only filtered emission after a specular event, an AOV or `inspect` needs it.
 inline bool lastEdgeCarries(const PathContext& c, const Scatter& drawn) noexcept {
   return drawn.local.specular || c.record || c.wantsFootprint;
 }
 
-/// What lights at infinity add to a ray that left the scene, filtered over the directions that the
-/// path stands for. Rays that had a rival are not: next-event estimation looked at a point [MATH
+/// The radiance of the lights at infinity, filtered over the directions that the path stands for.
+/// Not filtered where next-event estimation competes, because that evaluates them at a point [MATH
 /// T7].
 template <int Lanes>
 Rgb filteredBackground(const SceneView& scene, const DrawnRay& ray, Vec3 direction,
@@ -37,8 +38,8 @@ Rgb filteredBackground(const SceneView& scene, const DrawnRay& ray, Vec3 directi
   return background(scene, ray, direction, spread);
 }
 
-/// Direct light where the connection's own gradient limits the footprint: the light is drawn first,
-/// and the surface shaded again over what that leaves.
+/// Direct light where the connection's own gradient limits the footprint: draws the light first,
+/// then shades the surface again over the limited footprint.
 template <int Lanes>
 [[gnu::noinline]] Rgb limitedDirectLight(PathContext& c, const Surface& s, const Interaction& x,
                                          std::uint32_t vertex, std::uint32_t index, Real samples,
@@ -46,7 +47,7 @@ template <int Lanes>
   const TowardsLight towards = drawLight(c, s, vertex, index);
   if (!x.brdf || !towards.sample) return {};
   const LightHit& hit = towards.sample->hit;
-  // Where f is 0 its logarithm has no slope.
+  // The logarithm of f has no slope where f is 0.
   if (isBlack(evaluateScatter(x, hit.toLight).fCos) || isBlack(towards.sample->radiance)) return {};
   const PathFootprint<Lanes> connected =
       f.connected(s, x, hit, towards.light->sampleDerivatives(hit.from, towards.u),
@@ -57,7 +58,7 @@ template <int Lanes>
   return reflectedLight(c, s, again, towards, samples, scattered);
 }
 
-/// directLight() of a path with its footprint, if it carries one.
+/// directLight() of a path that may carry a footprint.
 template <int Lanes>
 Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
                 std::uint32_t index, Real samples, Real scattered,
@@ -67,7 +68,7 @@ Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uin
   return directLight(c, s, x, vertex, index, samples, scattered);
 }
 
-/// Diameter of everything finite; infinite where there is nothing finite.
+/// Diameter of all finite objects; infinite where there are none.
 inline Real sizeOf(const SceneView& scene) noexcept {
   const Bounds b = scene.bounds();
   return b.isEmpty() ? kInfinity : length(b.size());
@@ -82,13 +83,14 @@ inline Real texelSideOf(const Footprint& f, Vec2 texels) noexcept {
   return std::sqrt(std::abs(cross(f.dUv[0], f.dUv[1])) * texels.x * texels.y);
 }
 
-/// The same ellipse by its axes, the longer first: for people to read.
+/// The same ellipse given by its axes, the longer one first, as people read it.
 inline Footprint principal(const Footprint& f) noexcept {
   const Vec3 n = cross(f.dP[0], f.dP[1]);
   const Frame frame = Frame::around(lengthSquared(n) > 0 ? normalize(n) : Vec3{0, 0, 1});
   const auto flat = [&](Vec3 v) { return Vec2{dot(v, frame.s), dot(v, frame.t)}; };
   Covariance m;
-  m.add(flat(f.dP[0])), m.add(flat(f.dP[1]));
+  m.add(flat(f.dP[0]));
+  m.add(flat(f.dP[1]));
   const Real det = cross(flat(f.dP[0]), flat(f.dP[1]));
   if (det == 0) return f;  // a line, or a point
   const Region r = ellipse(m);
@@ -96,7 +98,7 @@ inline Footprint principal(const Footprint& f) noexcept {
   const Vec2 axes[2] = {r.a, r.b};
   for (int i = 0; i < 2; ++i) {
     result.dP[i] = axes[i].x * frame.s + axes[i].y * frame.t;
-    // The same sum of the two vectors, in uv.
+    // The same linear combination of the two vectors, in uv.
     const Real a = cross(axes[i], flat(f.dP[1])) / det, b = cross(flat(f.dP[0]), axes[i]) / det;
     result.dUv[i] = a * f.dUv[0] + b * f.dUv[1];
   }
@@ -105,12 +107,12 @@ inline Footprint principal(const Footprint& f) noexcept {
 
 class PathReport {
  public:
-  /// To nobody.
+  /// A report that discards everything.
   PathReport() = default;
   explicit PathReport(PathContext& c) noexcept
       : scene_(&c.scene), aovs_(c.wantsFootprint ? c.aovs : nullptr), record_(c.record) {}
 
-  /// The path reached a surface and scattered; before the footprint knows.
+  /// The path reached a surface and scattered. Call before the footprint follows the scattering.
   template <int Lanes>
   void scatter(const Surface& s, Vec3 toPrev, Rgb throughput, const Scatter& drawn,
                const PathFootprint<Lanes>* f) noexcept {
@@ -119,7 +121,7 @@ class PathReport {
     see(s, *f);
     isWaiting_ = true;
   }
-  /// The path ends where light is kept on the surface: what it saw counts as what scatters would.
+  /// The path ends at a surface with precomputed irradiance, which the AOVs treat as a scattering.
   template <int Lanes>
   void rest(const Surface& s, Vec3 toPrev, Rgb throughput, const PathFootprint<Lanes>* f) noexcept {
     end(s, toPrev, throughput, "end", f);
@@ -127,14 +129,16 @@ class PathReport {
     see(s, *f);
     aovs_ = nullptr;
   }
-  /// Whether an AOV needs what the footprint says behind the scattering.
+  /// Whether an AOV needs the footprint behind the scattering.
   bool isWaiting() const noexcept { return isWaiting_; }
-  /// ... and now the footprint knows.
+  /// The footprint has followed the scattering.
   template <int Lanes>
   void left(const PathFootprint<Lanes>* f) noexcept {
     if (!isWaiting_) return;
     aovs_->gradient = f->steepest();
-    aovs_ = nullptr, isWaiting_ = false;  // only the first of them
+    // Only the first scattering is wanted.
+    aovs_ = nullptr;
+    isWaiting_ = false;
   }
 
   /// The path reached a surface and passed through, or ended there.
@@ -148,7 +152,9 @@ class PathReport {
   void gone(const char* event, Vec3 direction, Rgb throughput) noexcept {
     if (!record_) return;
     PathVertex v;
-    v.toPrev = -direction, v.throughput = throughput, v.event = event;
+    v.toPrev = -direction;
+    v.throughput = throughput;
+    v.event = event;
     record_->add(v);
   }
 
@@ -165,8 +171,12 @@ class PathReport {
                     const PathFootprint<Lanes>* f,
                     const std::optional<ScatterSample>& scattered) const noexcept {
     PathVertex v;
-    v.surface = s, v.toPrev = toPrev, v.throughput = throughput, v.event = event;
-    v.scattered = scattered, v.texels = scene_->texels(s);
+    v.surface = s;
+    v.toPrev = toPrev;
+    v.throughput = throughput;
+    v.event = event;
+    v.scattered = scattered;
+    v.texels = scene_->texels(s);
     if (!f) return v;
     VertexDifferentials& d = v.differentials;
     d.size = std::min(f->differentials().size(), VertexDifferentials::kMost);
@@ -176,7 +186,9 @@ class PathReport {
       d.gradient[j] = f->differentials().gradient(j);
       d.delta[j] = f->delta(j);
     }
-    d.count = f->count(), d.footprint = principal(f->footprint()), d.area = f->area();
+    d.count = f->count();
+    d.footprint = principal(f->footprint());
+    d.area = f->area();
     return v;
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shooting.h"
 
+#include <vestige/layers.h>
+
 #include <exception>
 #include <thread>
 
@@ -19,8 +21,6 @@ constexpr std::uint64_t kBatch = 256;
 /// From this scattering on nobody survives for certain: a closed room of white walls ends too.
 constexpr int kMortalFrom = 16;
 constexpr Real kMaxSurvival = Real(0.95);
-/// Layers passed without scattering.
-constexpr int kMaxLayers = 64;
 
 void add(Flux& sum, const Flux& f, std::int64_t sign = 1) noexcept {
   for (std::size_t c = 0; c < 3; ++c) sum[c] += sign * f[c];
@@ -119,7 +119,8 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
   Surface s;
   InputBuffer inputs;
   Interaction x;
-  for (int bounce = 0, layer = 0;;) {
+  std::uint32_t layer = 0;
+  for (int bounce = 0;;) {
     if (!scene.intersect(ray, s)) return add(booking.escaped, carried);
     path.arrive(s, size);
     scene.shade(s, -ray.direction, scene.usesFootprint(s) ? path.footprint() : Footprint{}, inputs,
@@ -132,11 +133,9 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
                         inUnits(bending(x) * power, rounding));
     }
     if (x.opacity < 1) {
-      // Layers beyond the first have numbers of their own, far from those of any vertex.
-      const std::uint32_t own = dim + dimension::kOpacity + 0x10000u * std::uint32_t(layer);
-      const bool stays = sampler.number(own) < x.opacity;
-      path.chance(stays ? x.opacity : 1 - x.opacity);
-      if (!stays) {
+      const LayerEvent event = meetLayer(sampler, std::uint32_t(bounce), layer, index, x);
+      path.chance(event.chance);
+      if (event.passes) {
         if (++layer == kMaxLayers) return add(booking.absorbed, carried);
         ray = spawnRay(s, ray.direction);
         continue;

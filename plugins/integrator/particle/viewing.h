@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of a solution: paths from the eye that end on what is matt, where light is kept, and
-// go on through everything else.
+// The picture of a solution: paths from the eye that end on diffuse surfaces, whose irradiance the
+// solution has, and scatter everywhere else.
 #pragma once
-#include <vestige/path_report.h>
+#include <vestige/path_walk.h>
 
 #include "irradiance.h"
 
 namespace vestige::particle {
 
 enum class Show {
-  smooth,    ///< irradiance blended between vertices
+  smooth,    ///< irradiance interpolated between vertices
   elements,  ///< constant on each element
-  gather,    ///< what the eye sees first is lit by rays, and these see elements
+  gather,    ///< rays light the first diffuse surface, and these see elements
 };
 
 struct Viewing {
   Show show = Show::smooth;
-  bool glossy = true;  ///< follow rays from what is not matt; if not it stays black
+  bool glossy = true;  ///< follow rays from what is not diffuse; otherwise it stays black
   bool wires = false;  ///< draw the edges of elements
   int depth = 16;      ///< longest path, edges
   Irradiance light = {};
@@ -26,7 +26,6 @@ struct Viewing {
 
  private:
   struct Path;
-  bool meet(Path& path) const noexcept;
   bool look(Path& path) const noexcept;
   bool scatter(Path& path) const noexcept;
   Real wire(PathContext& c, const Place& place) const noexcept;
