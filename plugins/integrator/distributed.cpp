@@ -84,7 +84,7 @@ class Distributed final : public Integrator {
   int samples() const noexcept override { return samples_; }
 
   Rgb estimate(PathContext& c) const noexcept override {
-    Node root{c.ray, {c.ray.origin, kInfinity, 1}, c.sampler.index(), 1, nullptr, PathReport(c)};
+    Node root{c.ray, {{c.ray.origin}, kInfinity, 1}, c.sampler.index(), 1, nullptr, PathReport(c)};
     PathFootprint<> footprint;
     if (carriesFootprint(c, footprint_)) {
       footprint.begin(c, footprint_);
@@ -205,13 +205,14 @@ class Distributed final : public Integrator {
                Real size) const noexcept {
     PathReport* report = reports.take();
     if (report) report->scatter(s, x.toPrev, grey(1), next, node.footprint);
-    Node below{spawnRay(s, next.toNext),
-               {s.position, next.local.specular ? kInfinity : Real(split_.count) * next.local.pdf,
-                Real(lightSamples_)},
-               index,
-               node.edge + 1,
-               nullptr,
-               PathReport()};
+    Node below{
+        spawnRay(s, next.toNext),
+        {receiverAt(s, x), next.local.specular ? kInfinity : Real(split_.count) * next.local.pdf,
+         Real(lightSamples_)},
+        index,
+        node.edge + 1,
+        nullptr,
+        PathReport()};
     std::optional<PathFootprint<>> footprint;
     if (node.footprint && (below.edge < depth_ || lastEdgeCarries(c, next))) {
       footprint.emplace(*node.footprint);

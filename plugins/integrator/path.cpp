@@ -127,7 +127,7 @@ class PathIntegrator final : public Integrator {
 
   Rgb estimate(PathContext& context) const noexcept override {
     Path path{.ray = context.ray,
-              .drawn = {context.ray.origin},
+              .drawn = {.from = {context.ray.origin}},
               .index = context.sampler.index(),
               .rays = split_,
               .report = PathReport(context)};
@@ -292,7 +292,7 @@ class PathIntegrator final : public Integrator {
     path.report.scatter(v.s, v.x.toPrev, path.throughput, *drawn, path.footprint);
     path.throughput *= drawn->weight;
     path.flux *= drawn->local.weight;
-    path.drawn.from = v.s.position;
+    path.drawn.from = receiverAt(v.s, v.x);
     path.drawn.density = drawn->local.specular ? kInfinity : Real(siblings) * drawn->local.pdf;
     path.ray = spawnRay(v.s, drawn->toNext);
     const bool goesOn =

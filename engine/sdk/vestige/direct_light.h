@@ -12,7 +12,7 @@ namespace vestige {
 
 /// A ray as multiple importance sampling sees it.
 struct DrawnRay {
-  Vec3 from;                 ///< where the last scattering was: what light densities are asked from
+  Receiver from;             ///< the last scattering event: what light densities are asked for
   Real density = kInfinity;  ///< of its direction times how many were drawn, 1/sr; infinite after
                              ///< the camera and specular events: then no light was drawn against it
   Real lightSamples = 1;     ///< drawn towards lights at `from`
@@ -33,15 +33,18 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
   Rgb sum;
   for (const int i : scene.infiniteLights()) {
     const Light& light = *scene.lights()[std::size_t(i)];
-    LightHit hit{ray.from, direction, kInfinity, {}, {}, {}};
-    if (spread) hit.spread[0] = spread[0], hit.spread[1] = spread[1];
-    const Real rival = ray.lightSamples * scene.lightChance(i, ray.from) * light.pdf(hit);
+    LightHit hit{ray.from.position, direction, kInfinity, {}, {}, {}};
+    if (spread) {
+      hit.spread[0] = spread[0];
+      hit.spread[1] = spread[1];
+    }
+    const Real rival = ray.lightSamples * scene.lightChance(i, ray.from) * light.pdf(ray.from, hit);
     sum += powerHeuristic(ray.density, rival) * light.eval(hit);
   }
   return sum;
 }
 
-/// A point of a light, drawn from a surface.
+/// A point of a light, drawn for a receiver.
 struct TowardsLight {
   const Light* light = nullptr;
   Vec2 u{};                             ///< the light's own numbers
@@ -50,18 +53,18 @@ struct TowardsLight {
 };
 
 /// One light, one point of it. `index`: of the sample in its sequences.
-inline TowardsLight drawLight(PathContext& c, const Surface& s, std::uint32_t vertex,
+inline TowardsLight drawLight(PathContext& c, const Receiver& r, std::uint32_t vertex,
                               std::uint32_t index) noexcept {
   const std::uint32_t dim = dimension::vertex(vertex);
   // One pair chooses the light and then its point: so the points are stratified on each light.
   Vec2 u = c.sampler.pair(dim + dimension::kLight, index);
-  const auto choice = c.scene.chooseLight(s.position, u.x);
+  const auto choice = c.scene.chooseLight(r, u.x);
   if (!choice) return {};
   constexpr Real kFewBits = Real(1) / 256;
   u.x = choice->chance > kFewBits ? choice->rest
                                   : c.sampler.number(dim + dimension::kLightChoice, index);
   const Light* light = c.scene.lights()[std::size_t(choice->light)];
-  return {light, u, choice->chance, light->sample(s.position, u)};
+  return {light, u, choice->chance, light->sample(r, u)};
 }
 
 /// What arrives from there and is reflected, weighted as one of `samples`; `scattered` rays are
@@ -77,7 +80,7 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
   if (visible == 0) return {};
   const Real density = towards.chance * drawn.pdf;
   const Real weight =
-      towards.light->isDelta()
+      towards.light->traits().isDelta
           ? 1
           : powerHeuristic(samples * density, scattered * scatterPdf(x, drawn.hit.toLight));
   return (visible * weight / density) * f * drawn.radiance;
@@ -87,7 +90,7 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
 inline Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
                        std::uint32_t index, Real samples = 1, Real scattered = 1) noexcept {
   if (!x.brdf) return {};
-  return reflectedLight(c, s, x, drawLight(c, s, vertex, index), samples, scattered);
+  return reflectedLight(c, s, x, drawLight(c, receiverAt(s, x), vertex, index), samples, scattered);
 }
 
 }  // namespace vestige

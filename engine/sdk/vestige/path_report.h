@@ -43,14 +43,15 @@ template <int Lanes>
 [[gnu::noinline]] Rgb limitedDirectLight(PathContext& c, const Surface& s, const Interaction& x,
                                          std::uint32_t vertex, std::uint32_t index, Real samples,
                                          Real scattered, const PathFootprint<Lanes>& f) noexcept {
-  const TowardsLight towards = drawLight(c, s, vertex, index);
+  const Receiver receiver = receiverAt(s, x);
+  const TowardsLight towards = drawLight(c, receiver, vertex, index);
   if (!x.brdf || !towards.sample) return {};
   const LightHit& hit = towards.sample->hit;
   // Where f is 0 its logarithm has no slope.
   if (isBlack(evalScatter(x, hit.toLight)) || isBlack(towards.sample->radiance)) return {};
   const PathFootprint<Lanes> connected =
-      f.connected(s, x, hit, towards.light->sampleDerivatives(hit.from, towards.u),
-                  towards.light->logGradient(hit.from, towards.u));
+      f.connected(s, x, hit, towards.light->sampleDerivatives(receiver, towards.u),
+                  towards.light->logGradient(receiver, towards.u));
   InputBuffer inputs;
   Interaction again;
   c.scene.shade(s, x.toPrev, connected.footprint(), inputs, again);

@@ -21,7 +21,7 @@ constexpr Real kWire = Real(0.3);
 /// An eye path under way, and where it is.
 struct Viewing::Path {
   Path(PathContext& context, PathFootprint<>* carried)
-      : c(context), footprint(carried), ray(c.ray), drawn{c.ray.origin}, report(c) {}
+      : c(context), footprint(carried), ray(c.ray), drawn{.from = {c.ray.origin}}, report(c) {}
 
   std::uint32_t vertex() const noexcept { return std::uint32_t(edge - 1); }
   Real number(std::uint32_t offset) const noexcept {
@@ -122,7 +122,7 @@ bool Viewing::scatter(Path& p) const noexcept {
   }
   p.report.scatter(p.s, p.x.toPrev, p.throughput, *next, p.footprint);
   p.throughput *= next->weight, p.flux *= next->local.weight;
-  p.drawn = {p.s.position, next->local.specular ? kInfinity : next->local.pdf};
+  p.drawn = {receiverAt(p.s, p.x), next->local.specular ? kInfinity : next->local.pdf};
   if (p.footprint) p.footprint->scatter(p.s, p.x, *next, numbers);
   p.report.left(p.footprint);
   p.ray = spawnRay(p.s, next->toNext);
