@@ -68,9 +68,11 @@ void checkKind(const NewRequest& r) {
                               near.empty() ? fmt::format("there are {}", fmt::join(kKinds, ", "))
                                            : fmt::format("did you mean '{}'?", near)));
   }
-  if (r.dual && r.kind != "brdf")
-    throw Failure(kCommandLineWrong,
-                  fmt::format("--dual is for a brdf; a {} has no such form", r.kind));
+  const std::vector<std::string> dualKinds = {"brdf", "light", "camera"};
+  if (r.dual && std::find(dualKinds.begin(), dualKinds.end(), r.kind) == dualKinds.end())
+    throw Failure(
+        kCommandLineWrong,
+        fmt::format("--dual is for a brdf, a light or a camera: a {} has no such form", r.kind));
 }
 
 void checkName(const std::string& name) {
@@ -172,7 +174,8 @@ void addPluginNew(CLI::App& plugin, Action& chosen) {
       ->required();
   command->add_option("name", request->name, "the word in scenes, as velvet or soft_box")
       ->required();
-  command->add_flag("--dual", request->dual, "a brdf that has its derivatives from dual numbers");
+  command->add_flag("--dual", request->dual,
+                    "a brdf, light or camera that has its derivatives from dual numbers");
   command->add_option("--into", request->into, "make the folder in this one")->type_name("DIR");
   command->callback([request, &chosen] { chosen = [request] { return runNew(*request); }; });
 }

@@ -84,6 +84,9 @@ int runTest(const TestRequest& request) {
   std::vector<judge::Picture> pictures;
   if (!request.report.empty()) pictures = judge::picturesOf(plugin, request.effort);
   text += legends(pictures);
+  if (!request.report.empty())
+    if (const std::string why = judge::leftOutPictures(plugin, pictures); !why.empty())
+      text += "\n" + why + "\n";
   std::cout << text << std::flush;
   if (!request.report.empty()) writeReport(request.report, text, pictures);
   return judgement.passed() ? int(kFine) : kPluginWrong;

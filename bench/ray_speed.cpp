@@ -57,18 +57,22 @@ class Recorder final : public SceneView {
     s_.shade(s, toPrev, f, buffer, x);
   }
   Real opacity(const Surface& s) const noexcept override { return s_.opacity(s); }
-  Rgb emitted(const Surface& s, Vec3 from) const noexcept override { return s_.emitted(s, from); }
-  Real lightPdf(const Surface& s, Vec3 from) const noexcept override {
-    return s_.lightPdf(s, from);
+  Rgb emitted(const Surface& s, const Receiver& r) const noexcept override {
+    return s_.emitted(s, r);
+  }
+  Real lightPdf(const Surface& s, const Receiver& r) const noexcept override {
+    return s_.lightPdf(s, r);
   }
   std::span<const Light* const> lights() const noexcept override { return s_.lights(); }
   std::optional<LightChoice> chooseLight(Real u) const noexcept override {
     return s_.chooseLight(u);
   }
-  std::optional<LightChoice> chooseLight(Vec3 at, Real u) const noexcept override {
-    return s_.chooseLight(at, u);
+  std::optional<LightChoice> chooseLight(const Receiver& r, Real u) const noexcept override {
+    return s_.chooseLight(r, u);
   }
-  Real lightChance(int light, Vec3 at) const noexcept override { return s_.lightChance(light, at); }
+  Real lightChance(int light, const Receiver& r) const noexcept override {
+    return s_.lightChance(light, r);
+  }
   std::span<const int> infiniteLights() const noexcept override { return s_.infiniteLights(); }
   bool usesFootprints() const noexcept override { return s_.usesFootprints(); }
   bool usesFootprint(const Surface& s) const noexcept override { return s_.usesFootprint(s); }

@@ -36,14 +36,18 @@ Event cameraEvent(const CameraCase& c, CameraNumbers n, const std::string& what)
   return {line.str(), where.str(), what};
 }
 
-CameraCases cameraCases(const Plugin& plugin, int sets, unsigned seed) {
+CameraCases cameraCases(const Plugin& plugin, int sets, unsigned seed, TriedRows* rows) {
   CameraCases cases;
+  TriedRows ignored;
+  if (!rows) rows = &ignored;
   Random r(seed + 31);
   for (int tried = 0; int(cases.size()) < sets && tried < 50 * sets; ++tried) {
     const Settings s = tried == 0 ? Settings{} : plainSettings(*plugin.schema, r);
+    rows->offer(s);
     try {
       cases.push_back(
           {"camera " + plugin.name + " {" + textOfSettings(s) + " }", make<Camera>(plugin, s)});
+      rows->accept(s);
     } catch (const std::runtime_error&) {
       continue;  // settings that contradict each other
     }

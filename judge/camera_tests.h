@@ -5,6 +5,7 @@
 
 #include "judge/differences.h"
 #include "judge/made.h"
+#include "judge/plain.h"
 #include "judge/verdict.h"
 
 namespace vestige::judge {
@@ -16,7 +17,7 @@ struct CameraCase {
 using CameraCases = std::vector<CameraCase>;
 
 /// Defaults, and random values for every row that plainValue() has one for.
-CameraCases cameraCases(const Plugin& plugin, int sets, unsigned seed);
+CameraCases cameraCases(const Plugin& plugin, int sets, unsigned seed, TriedRows* rows = nullptr);
 
 Event cameraEvent(const CameraCase& c, CameraNumbers n, const std::string& what);
 

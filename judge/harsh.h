@@ -2,6 +2,8 @@
 // Numbers, directions and parameters that break formulas: the ends of intervals, grazing angles,
 // and settings that nobody would write but the schema allows.
 #pragma once
+#include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "judge/differences.h"
@@ -71,19 +73,43 @@ inline Value harshValue(const Parameter& row, Random& r) {
   }
 }
 
-/// What a set of settings is called in a message.
+/// As the scene language writes it. `name`: of the row.
+inline void writeValue(std::ostream& text, const std::string& name, const Value& value) {
+  const auto isWord = [](const std::string& t) {
+    return !t.empty() && std::all_of(t.begin(), t.end(), [](char c) {
+      return std::islower(static_cast<unsigned char>(c)) || c == '_';
+    });
+  };
+  const auto list = [&](int size) {
+    text << "<";
+    for (int i = 0; i < size; ++i) text << (i ? ", " : "") << value.v[i];
+    text << ">";
+  };
+  if (value.kind == Value::Kind::number) text << value.v[0];
+  if (value.kind == Value::Kind::vector) list(value.size);
+  if (value.kind == Value::Kind::colour) {
+    text << "rgb ";
+    list(3);
+  }
+  if (value.kind == Value::Kind::text && isWord(value.text)) text << value.text;
+  if (value.kind == Value::Kind::text && !isWord(value.text)) text << '"' << value.text << '"';
+  if (value.kind != Value::Kind::block) return;
+  if (value.block->plugin != name) text << value.block->plugin << " ";
+  text << "{";
+  for (const Setting& s : value.block->settings) {
+    text << " " << s.name << " ";
+    writeValue(text, s.name, s.value);
+  }
+  text << " }";
+}
+
+/// A set of settings for a message: can be pasted into a scene.
 inline std::string textOfSettings(const Settings& settings) {
   std::ostringstream text;
   text.precision(9);
   for (const auto& [name, value] : settings) {
     text << " " << name << " ";
-    if (value.kind == Value::Kind::text) text << value.text;
-    if (value.kind == Value::Kind::block) text << "{ " << value.block->plugin << " }";
-    const int size = value.kind == Value::Kind::number   ? 1
-                     : value.kind == Value::Kind::colour ? 3
-                     : value.kind == Value::Kind::vector ? value.size
-                                                         : 0;
-    for (int i = 0; i < size; ++i) text << (i ? "," : "") << value.v[i];
+    writeValue(text, name, value);
   }
   return text.str();
 }

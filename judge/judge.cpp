@@ -64,22 +64,33 @@ Finding isCreatedAsItsKind(const Plugin& plugin) {
   return isCreated<Integrator>(plugin);
 }
 
+void addSentence(std::string& text, const std::string& more) {
+  text += (text.empty() || more.empty() ? "" : "\n") + more;
+}
+
 /// Drops what would judge the engine's differences, which stand in where a plugin has no
 /// derivatives: they err on the seams of a map, and slowly.
 void dropDifferences(Judgement& j, std::uint32_t lacks) {
   const auto isDropped = [&](const Verdict& v) {
     const auto names = [&](const char* word) { return v.test.find(word) != v.test.npos; };
-    const bool ofSample = names("|du.c0 x du.c1|") || names("du is") || names("dPrev is");
+    const bool ofSample = names("|du.c0 x du.c1|") || names("du is") || names("dPrev is") ||
+                          names("dFrom is") || names("sampleDerivatives() are") ||
+                          names("|dDirection[0] x");
     return ((lacks & kLacksSampleDerivatives) && ofSample) ||
-           ((lacks & kLacksLogGradient) && names("logGradient()"));
+           ((lacks & kLacksLogGradient) && names("logGradient()")) ||
+           ((lacks & (kLacksEmission | kLacksEmissionDerivatives)) &&
+            names("emissionDerivatives()")) ||
+           ((lacks & kLacksEmission) && names("emit() brings"));
   };
   std::erase_if(j.verdicts, isDropped);
-  if (lacks)
-    j.unchecked = "it leaves derivatives to the engine's finite differences: those were not judged";
-}
-
-void addSentence(std::string& text, const std::string& more) {
-  text += (text.empty() || more.empty() ? "" : "\n") + more;
+  if (lacks & kLacksDerivatives)
+    addSentence(j.unchecked,
+                "it leaves derivatives to the engine's finite differences: those were not judged");
+  if (lacks & kLacksEmission)
+    addSentence(j.unchecked,
+                "it has no emit(): integrators that start at lights leave this light out");
+  if (lacks & kLacksPdf)
+    addSentence(j.unchecked, "it has no pdf(): the density of its rays was not judged");
 }
 
 /// Parameters that were not tried, for the user; "": none.
@@ -100,19 +111,29 @@ std::string noCases(const Cases& cases) {
 }
 
 void judgeByKind(const Plugin& plugin, const Effort& effort, Judgement& j) {
-  const std::string untried = leftAlone(plugin, rowsLeftAlone(*plugin.schema));
+  TriedRows rows;
+  const auto untried = [&] {
+    std::string names = rowsLeftAlone(*plugin.schema);
+    if (const std::string refused = rows.refused(); !refused.empty())
+      names += (names.empty() ? "" : ", ") + refused;
+    return leftAlone(plugin, names);
+  };
   if (plugin.kind == "brdf") {
     j = judgeBrdf(brdfCases(plugin, 4, effort.seed), plugin.schema, effort);
     dropDifferences(j, plugin.entry->lacks);
     addSentence(j.unchecked, leftAlone(plugin, paramsOf(*plugin.schema)));
   } else if (plugin.kind == "light") {
-    const LightCases cases = lightCases(plugin, 6, effort.seed);
+    const LightCases cases = lightCases(plugin, 6, effort.seed, &rows);
     j = judgeLight(cases, effort);
-    addSentence(j.unchecked, noCases(cases)), addSentence(j.unchecked, untried);
+    dropDifferences(j, plugin.entry->lacks);
+    addSentence(j.unchecked, noCases(cases));
+    addSentence(j.unchecked, untried());
   } else if (plugin.kind == "camera") {
-    const CameraCases cases = cameraCases(plugin, 6, effort.seed);
+    const CameraCases cases = cameraCases(plugin, 6, effort.seed, &rows);
     j = judgeCamera(cases, effort);
-    addSentence(j.unchecked, noCases(cases)), addSentence(j.unchecked, untried);
+    dropDifferences(j, plugin.entry->lacks);
+    addSentence(j.unchecked, noCases(cases));
+    addSentence(j.unchecked, untried());
   } else {
     j.unchecked = "there are no tests for the methods of a " + plugin.kind +
                   ": only its schema and its creation were checked";

@@ -6,13 +6,14 @@ namespace vestige::judge {
 namespace {
 
 /// Density of a direction at infinity, as a ray that leaves the scene asks for it.
-double densityTowards(const Light& light, Vec3 from, Vec3 d) {
-  return double(light.pdf({from, d, kInfinity, {}, {}, {}}));
+double densityTowards(const Light& light, const Receiver& from, Vec3 d) {
+  return double(light.pdf(from, {from.position, d, kInfinity, {}, {}, {}}));
 }
 
 /// Integral of the density over each cell, by points of the light's surface: a cell's quadrature
 /// would miss the sharp edges of a polygon.
-std::vector<double> overSurface(const Light& light, Vec3 from, const SpherePartition& cells) {
+std::vector<double> overSurface(const Light& light, const Receiver& from,
+                                const SpherePartition& cells) {
   constexpr int kFine = 400;
   std::vector<double> sums(cells.cells(), 0);
   const TriangleMesh& mesh = *light.geometry();
@@ -22,9 +23,9 @@ std::vector<double> overSurface(const Light& light, Vec3 from, const SphereParti
     for (int i = 0; i < kFine * kFine; ++i) {
       Real x = (i % kFine + Real(0.5)) / kFine, y = (i / kFine + Real(0.5)) / kFine;
       if (x + y > 1) x = 1 - x, y = 1 - y;  // each half of the parallelogram once
-      const Vec3 p = a + x * b + y * c, d = normalize(p - from);
-      const LightHit hit = {from, d, length(p - from), p, normal, {x, y}};
-      sums[cells.cellOf(d)] += double(light.pdf(hit) * std::abs(dot(normal, d)) /
+      const Vec3 p = a + x * b + y * c, d = normalize(p - from.position);
+      const LightHit hit = {from.position, d, length(p - from.position), p, normal, {x, y}};
+      sums[cells.cellOf(d)] += double(light.pdf(from, hit) * std::abs(dot(normal, d)) /
                                       sqr(hit.distance) * length(across) / 2) /
                                (kFine * kFine);
     }
@@ -32,7 +33,7 @@ std::vector<double> overSurface(const Light& light, Vec3 from, const SphereParti
   return sums;
 }
 
-std::vector<Vec3> drawn(const Light& light, Vec3 from, int n, Random& r) {
+std::vector<Vec3> drawn(const Light& light, const Receiver& from, int n, Random& r) {
   std::vector<Vec3> list;
   for (int i = 0; i < n; ++i)
     if (const auto s = light.sample(from, r.pair()); s && isFinite(s->hit.toLight))
@@ -40,8 +41,8 @@ std::vector<Vec3> drawn(const Light& light, Vec3 from, int n, Random& r) {
   return list;
 }
 
-void seeDistribution(LightDensityFindings& f, const LightCase& c, Vec3 from, double level,
-                     const Effort& effort, Random& r) {
+void seeDistribution(LightDensityFindings& f, const LightCase& c, const Receiver& from,
+                     double level, const Effort& effort, Random& r) {
   const int n = effort.samples;
   const SpherePartition cells(drawn(*c.light, from, std::max(n / 4, 1 << 13), r), effort.depth);
   const std::vector<Vec3> samples = drawn(*c.light, from, n, r);
@@ -80,18 +81,19 @@ LightDensityFindings lightSamplesFollowPdf(const LightCases& cases, const Effort
   const double level = sidakLevel(effort.falseAlarm, cases.size() * kPlaces);
   Random r(effort.seed + 1);
   for (const LightCase& c : cases) {
-    const bool canBeHit = c.light->isInfinite() || c.light->geometry();
-    for (int i = 0; i < kPlaces && !c.light->isDelta() && canBeHit; ++i)
-      seeDistribution(f, c, r.point(-3, 3), level, effort, r);
+    const LightTraits traits = c.light->traits();
+    const bool canBeHit = !traits.isDelta && (traits.isInfinite || c.light->geometry());
+    for (int i = 0; i < kPlaces && canBeHit; ++i)
+      seeDistribution(f, c, receiverAt(r.point(-3, 3), i), level, effort, r);
   }
-  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+  forLightEvents(cases, effort, [&](const LightCase& c, const Receiver& from, Vec2 u, Random&) {
     const auto s = c.light->sample(from, u);
     if (!s) return;
-    const double pdf = c.light->isDelta() ? 1 : double(c.light->pdf(s->hit));
+    const double pdf = c.light->traits().isDelta ? 1 : double(c.light->pdf(from, s->hit));
     f.ownPdf.worst.see(relative(double(s->pdf), pdf) / 1e-3, [&] {
       return lightEvent(c, from, u, told("sample().pdf is", double(s->pdf), pdf) + " as pdf()");
     });
-    const Rgb radiance = c.light->isDelta() ? Rgb{} : s->radiance;
+    const Rgb radiance = c.light->traits().isDelta ? Rgb{} : s->radiance;
     const Rgb found = c.light->eval(s->hit);
     f.ownRadiance.worst.see(
         isBlack(found) && isBlack(radiance) ? 0 : relative(found, radiance) / 1e-3, [&] {

@@ -12,7 +12,7 @@ bool isSmoothAt(Vec2 u) {
 }
 
 /// Log of the radiance, and of cos / distance^2 where a point of the light was drawn by area.
-std::optional<Real> logFactor(const Light& light, Vec3 from, Vec2 u) {
+std::optional<Real> logFactor(const Light& light, const Receiver& from, Vec2 u) {
   const auto s = light.sample(from, u);
   if (!s) return std::nullopt;
   const Real measure =
@@ -25,9 +25,9 @@ std::optional<Real> logFactor(const Light& light, Vec3 from, Vec2 u) {
 
 Finding lightAreaIsInverseDensity(const LightCases& cases, const Effort& effort) {
   Finding f{"|du.c0 x du.c1| pdf = 1", "sampleDerivatives().du"};
-  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+  forLightEvents(cases, effort, [&](const LightCase& c, const Receiver& from, Vec2 u, Random&) {
     const auto s = c.light->sample(from, u);
-    if (!s || c.light->isDelta()) return;
+    if (!s || c.light->traits().isDelta) return;
     const Mat3x2 du = c.light->sampleDerivatives(from, u).du;
     const double area = double(length(cross(du.c[0], du.c[1])) * s->pdf);
     const double stretch = double(length(du.c[0]) * length(du.c[1]) * s->pdf);
@@ -39,7 +39,7 @@ Finding lightAreaIsInverseDensity(const LightCases& cases, const Effort& effort)
 
 Finding lightDuIsTheDerivative(const LightCases& cases, const Effort& effort) {
   Finding f{"du is the derivative of sample() by its numbers", "sampleDerivatives().du"};
-  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+  forLightEvents(cases, effort, [&](const LightCase& c, const Receiver& from, Vec2 u, Random&) {
     if (!c.light->sample(from, u) || !isSmoothAt(u)) return;
     const LightJacobian j = c.light->sampleDerivatives(from, u);
     for (const int k : {0, 1}) {
@@ -53,11 +53,11 @@ Finding lightDuIsTheDerivative(const LightCases& cases, const Effort& effort) {
 
 Finding lightFromIsTheDerivative(const LightCases& cases, const Effort& effort) {
   Finding f{"dFrom is the derivative of sample() by from", "sampleDerivatives().dFrom"};
-  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+  forLightEvents(cases, effort, [&](const LightCase& c, const Receiver& from, Vec2 u, Random&) {
     if (!c.light->sample(from, u)) return;
     const LightJacobian j = c.light->sampleDerivatives(from, u);
     for (const int k : {0, 1, 2}) {
-      const auto map = [&](double h) { return toLight(*c.light, from + Real(h) * axis3(k), u); };
+      const auto map = [&](double h) { return toLight(*c.light, moved(from, k, h), u); };
       seeDifference(f, map, j.dFrom * axis3(k), 1, "dFrom.c" + std::to_string(k),
                     [&](const std::string& what) { return lightEvent(c, from, u, what); });
     }
@@ -67,7 +67,7 @@ Finding lightFromIsTheDerivative(const LightCases& cases, const Effort& effort) 
 
 Finding lightLogGradientIsTheDerivative(const LightCases& cases, const Effort& effort) {
   Finding f{"logGradient() is the derivative of the log of the light's factor", "logGradient()"};
-  forLightEvents(cases, effort, [&](const LightCase& c, Vec3 from, Vec2 u, Random&) {
+  forLightEvents(cases, effort, [&](const LightCase& c, const Receiver& from, Vec2 u, Random&) {
     const auto here = logFactor(*c.light, from, u);
     if (!here || !isSmoothAt(u)) return;
     const LightLogGradient g = c.light->logGradient(from, u);
@@ -76,7 +76,7 @@ Finding lightLogGradientIsTheDerivative(const LightCases& cases, const Effort& e
     for (int k = 0; k < 5; ++k) {
       // As the first component of a vector, so that one comparison serves all.
       const auto map = [&](double h) -> std::optional<Vec3> {
-        const Vec3 at = k < 2 ? from : from + Real(h) * axis3(k - 2);
+        const Receiver at = k < 2 ? from : moved(from, k - 2, h);
         const auto l = logFactor(*c.light, at, k < 2 ? u + Real(h) * axis2(k) : u);
         return l ? std::optional(Vec3{*l, 0, 0}) : std::nullopt;
       };
@@ -89,7 +89,7 @@ Finding lightLogGradientIsTheDerivative(const LightCases& cases, const Effort& e
 
 Finding emissionIsTheDerivative(const LightCases& cases, const Effort& effort) {
   Finding f{"emissionDerivatives() are those of emit()", "emissionDerivatives()"};
-  forLightEvents(cases, effort, [&](const LightCase& c, Vec3, Vec2 point, Random& r) {
+  forLightEvents(cases, effort, [&](const LightCase& c, const Receiver&, Vec2 point, Random& r) {
     const EmissionNumbers u = {point, r.pair()};
     const auto p = c.light->emit(u);
     const Vec2 half = {2 * u.direction.x - std::floor(2 * u.direction.x), u.direction.y};

@@ -25,18 +25,19 @@ Vec3 lookout(const Light& light, Random& r) {
   return p->origin + height * normal + across;
 }
 
-std::optional<Broken> brokenPromise(const Light& light, Vec3 from, Vec2 u) {
+std::optional<Broken> brokenPromise(const Light& light, const Receiver& from, Vec2 u) {
   const auto s = light.sample(from, u);
   if (!s) return std::nullopt;
   if (!isUnit(s->hit.toLight)) return Broken{"sample().hit", "toLight is no unit vector"};
-  if (!(s->hit.from == from)) return Broken{"sample().hit", "hit.from is not where it was asked"};
+  if (!(s->hit.from == from.position))
+    return Broken{"sample().hit", "hit.from is not where it was asked"};
   if (!(s->hit.distance > 0)) return Broken{"sample().hit", "the distance is not positive"};
   if (!isColour(s->radiance)) return Broken{"sample().radiance", "the radiance is no colour"};
   if (!(s->pdf > 0) || !std::isfinite(s->pdf))
     return Broken{"sample().pdf", "the sample's pdf is not positive"};
-  if (light.isDelta() && !(s->pdf == 1 && light.pdf(s->hit) == 0))
+  if (light.traits().isDelta && !(s->pdf == 1 && light.pdf(from, s->hit) == 0))
     return Broken{"pdf()", "a delta light's pdf is not 1 of a sample, 0 of a hit"};
-  if (!isDensity(light.pdf(s->hit))) return Broken{"pdf()", "pdf() is no density"};
+  if (!isDensity(light.pdf(from, s->hit))) return Broken{"pdf()", "pdf() is no density"};
   if (!isColour(light.eval(s->hit))) return Broken{"eval()", "eval() is no colour"};
   const LightJacobian j = light.sampleDerivatives(from, u);
   if (!isFinite(j.du) || !isFinite(j.dFrom))
@@ -61,8 +62,8 @@ std::optional<Broken> brokenPromise(const Light& light, EmissionNumbers u) {
 
 Finding lightIsNeverNan(const LightCases& cases, const Effort& effort) {
   Finding f{"nothing is infinite, negative or not a number", "all"};
-  forLightEvents(cases, effort, [&](const LightCase& c, Vec3, Vec2, Random& r) {
-    const Vec3 from = lookout(*c.light, r);
+  forLightEvents(cases, effort, [&](const LightCase& c, const Receiver& at, Vec2, Random& r) {
+    const Receiver from = {lookout(*c.light, r), at.normal};
     const Vec2 u = harshPair(r), v = harshPair(r);
     auto broken = brokenPromise(*c.light, from, u);
     if (!broken) broken = brokenPromise(*c.light, EmissionNumbers{u, v});

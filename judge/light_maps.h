@@ -12,7 +12,12 @@ inline Vec3 axis3(int k) {
   return a;
 }
 
-inline std::optional<Vec3> toLight(const Light& light, Vec3 from, Vec2 u) {
+inline Receiver moved(Receiver r, int axis, double h) {
+  r.position[axis] += Real(h);
+  return r;
+}
+
+inline std::optional<Vec3> toLight(const Light& light, const Receiver& from, Vec2 u) {
   const auto s = light.sample(from, u);
   return s ? std::optional(s->hit.toLight) : std::nullopt;
 }
@@ -33,7 +38,7 @@ inline std::optional<Vec3> movedOrigin(const Light& light, EmissionNumbers u, Ve
                                        double h) {
   const auto p = movedParticle(light, u, k, h);
   if (!p) return std::nullopt;
-  if (k < 2 || !light.isInfinite()) return p->origin;
+  if (k < 2 || !light.traits().isInfinite) return p->origin;
   const Vec3 centre = kLightScene.centre();
   const Frame there = Frame::around(p->direction), here = Frame::around(along);
   const Vec3 local = here.toWorld(there.toLocal(p->origin - centre));

@@ -28,7 +28,7 @@ Vec3 placeToLook(const Light& light, unsigned seed) {
     const Vec3 from = r.point(-3, 3);
     double spread = 0;
     for (int k = 0; k < 64; ++k)
-      if (const auto s = light.sample(from, r.pair())) spread += 1 / (1 + double(s->pdf));
+      if (const auto s = light.sample({from}, r.pair())) spread += 1 / (1 + double(s->pdf));
     if (spread > most) most = spread, best = from;
   }
   return best;
@@ -36,7 +36,7 @@ Vec3 placeToLook(const Light& light, unsigned seed) {
 
 /// Where a ray meets the light's surface, or leaves the scene.
 std::optional<LightHit> hitOf(const Light& light, Vec3 from, Vec3 d) {
-  if (light.isInfinite()) return LightHit{from, d, kInfinity, {}, {}, {}};
+  if (light.traits().isInfinite) return LightHit{from, d, kInfinity, {}, {}, {}};
   const TriangleMesh* mesh = light.geometry();
   if (!mesh) return std::nullopt;
   std::optional<LightHit> nearest;
@@ -60,11 +60,11 @@ Picture density(const LightCase& c, Vec3 from, const Effort& effort) {
   Grid seen{kSphereColumns, kSphereRows};
   Random r(effort.seed);
   for (int i = 0; i < samples; ++i)
-    if (const auto d = toLight(*c.light, from, r.pair()))
+    if (const auto d = toLight(*c.light, {from}, r.pair()))
       cellTowards(seen, zUp(*d)) += 1 / (samples * cell);
   const Grid density = sphereOf([&](Vec3 d) {
     const auto hit = hitOf(*c.light, from, yUp(d));
-    return hit ? c.light->pdf(*hit) : 0;
+    return hit ? c.light->pdf({from}, *hit) : 0;
   });
   const double white = std::max(largest(density), 1e-30);
   return {"density.png", greyPanels({seen, density}, white),
@@ -82,12 +82,12 @@ Picture flux(const LightCase& c, const Effort& effort) {
   Grid brought{kSphereColumns, kSphereRows};
   for (int i = 0; i < kParticles; ++i)
     if (const auto p = c.light->emit({r.pair(), r.pair()}))
-      if (const auto at = crossing(*p, s, c.light->isInfinite()))
+      if (const auto at = crossing(*p, s, c.light->traits().isInfinite))
         cellTowards(brought, zUp(normalize(*at))) +=
             double(luminance(p->power)) / (kParticles * cell);
   const Grid arriving = sphereOf([&](Vec3 z) {
-    const Vec3 d = yUp(z), normal = c.light->isInfinite() ? d : -d;
-    const int n = c.light->isDelta() ? 1 : kPerPoint;
+    const Vec3 d = yUp(z), normal = c.light->traits().isInfinite ? d : -d;
+    const int n = c.light->traits().isDelta ? 1 : kPerPoint;
     double sum = 0;
     for (int i = 0; i < n; ++i)
       sum += irradiance(*c.light, s.centre + s.radius * d, normal, r.pair());
@@ -103,11 +103,11 @@ Picture flux(const LightCase& c, const Effort& effort) {
 
 /// Error of du at numbers u, in units of what is allowed.
 double errorOfDu(const Light& light, Vec3 from, Vec2 u) {
-  if (!light.sample(from, u)) return kNothingSaid;
-  const Mat3x2 du = light.sampleDerivatives(from, u).du;
+  if (!light.sample({from}, u)) return kNothingSaid;
+  const Mat3x2 du = light.sampleDerivatives({from}, u).du;
   double error = kNothingSaid;
   for (const int k : {0, 1}) {
-    const auto map = [&](double h) { return toLight(light, from, u + Real(h) * axis2(k)); };
+    const auto map = [&](double h) { return toLight(light, {from}, u + Real(h) * axis2(k)); };
     if (const auto e = compared(map, du.c[k], 1)) error = std::max(error, e->error);
   }
   return error;
@@ -157,12 +157,14 @@ Picture emission(const LightCase& c) {
 
 std::vector<Picture> lightPictures(const LightCase& c, const Effort& effort) {
   std::vector<Picture> list;
-  if (!c.light->isDelta()) {
+  if (!c.light->traits().isDelta) {
     const Vec3 from = placeToLook(*c.light, effort.seed);
     list = {density(c, from, effort), derivative(c, from)};
   }
-  list.push_back(flux(c, effort));
-  list.push_back(emission(c));
+  if (c.emits) {
+    list.push_back(flux(c, effort));
+    list.push_back(emission(c));
+  }
   return list;
 }
 

@@ -11,10 +11,11 @@ struct LightSphere {
   Real radius;
 };
 inline LightSphere sphereFor(const Light& light, Random& r) {
-  if (light.isInfinite()) return {kLightScene.centre(), length(kLightScene.size()) / 2};
+  if (light.traits().isInfinite) return {kLightScene.centre(), length(kLightScene.size()) / 2};
   Bounds origins;
   for (int i = 0; i < 256; ++i)
     if (const auto p = light.emit({r.pair(), r.pair()})) origins.add(p->origin);
+  if (origins.isEmpty()) origins = light.extent().box;  // it sends no particles
   if (origins.isEmpty()) return {{}, 0};
   return {origins.centre(), length(origins.size()) + 1};
 }
@@ -29,7 +30,7 @@ inline std::optional<Vec3> crossing(const Particle& p, const LightSphere& s, boo
 
 /// Irradiance by one sample, luminance: W/m^2.
 inline double irradiance(const Light& light, Vec3 from, Vec3 normal, Vec2 u) {
-  const auto s = light.sample(from, u);
+  const auto s = light.sample({from, normal}, u);
   if (!s) return 0;
   return double(luminance(s->radiance) * std::max(Real(0), dot(s->hit.toLight, normal)) / s->pdf);
 }

@@ -7,6 +7,7 @@
 
 #include "judge/differences.h"
 #include "judge/made.h"
+#include "judge/plain.h"
 #include "judge/trusted_difference.h"
 #include "judge/verdict.h"
 
@@ -16,15 +17,23 @@ namespace vestige::judge {
 struct LightCase {
   std::string title;  ///< "light spot falloff 40"
   std::shared_ptr<const Light> light;
+  bool emits = true;  ///< the plugin has an emit()
 };
 using LightCases = std::vector<LightCase>;
 
 inline const Bounds kLightScene = {{-1, -2, -1}, {2, 1, 1}};
 
 /// Random values for every row that plainValue() has one for.
-LightCases lightCases(const Plugin& plugin, int sets, unsigned seed);
+LightCases lightCases(const Plugin& plugin, int sets, unsigned seed, TriedRows* rows = nullptr);
 
-Event lightEvent(const LightCase& c, Vec3 from, Vec2 u, const std::string& what);
+Event lightEvent(const LightCase& c, const Receiver& from, Vec2 u, const std::string& what);
+
+/// A point that looks: on a surface that faces some way, or in a volume.
+inline Receiver receiverAt(Vec3 position, int event) {
+  if (event % 3 == 0) return {position};
+  const double a = 2.4 * event, z = 1 - 2 * std::fmod(0.618 * event, 1.0), s = std::sqrt(1 - z * z);
+  return {position, normalize(Vec3{Real(s * std::cos(a)), Real(s * std::sin(a)), Real(z)})};
+}
 
 /// Random events: f(case, from, u, random).
 template <class F>
@@ -32,7 +41,7 @@ void forLightEvents(const LightCases& cases, const Effort& effort, const F& f) {
   Random r(effort.seed);
   for (const LightCase& c : cases)
     for (int i = 0; i < effort.events(); ++i) {
-      const Vec3 from = r.point(-3, 3);
+      const Receiver from = receiverAt(r.point(-3, 3), i);
       f(c, from, r.pair(), r);
     }
 }

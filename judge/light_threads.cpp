@@ -12,7 +12,7 @@ const char* const kMethods[] = {"sample()", "sampleDerivatives()", "logGradient(
 
 struct Question {
   const LightCase* light;
-  Vec3 from;
+  Receiver from;
   Vec2 u, v;
   bool isDrawn, isEmitted;
 };
@@ -22,8 +22,8 @@ Bits answer(const Question& q, std::size_t method) {
   Bits bits;
   if (method == 0) {
     if (const auto s = l.sample(q.from, q.u))
-      bits.add(s->hit.toLight), bits.add(s->radiance), bits.add(s->pdf), bits.add(l.pdf(s->hit)),
-          bits.add(l.eval(s->hit));
+      bits.add(s->hit.toLight), bits.add(s->radiance), bits.add(s->pdf),
+          bits.add(l.pdf(q.from, s->hit)), bits.add(l.eval(s->hit));
   } else if (method == 1 && q.isDrawn) {
     const LightJacobian j = l.sampleDerivatives(q.from, q.u);
     for (const Vec3 d : {j.du.c[0], j.du.c[1], j.dFrom.c[0], j.dFrom.c[1], j.dFrom.c[2]})
@@ -44,7 +44,7 @@ Bits answer(const Question& q, std::size_t method) {
 std::vector<Question> questions(const LightCases& cases, int samples, unsigned seed) {
   std::vector<Question> list;
   forLightEvents(cases, {.samples = std::max(samples, 256), .seed = seed},
-                 [&](const LightCase& c, Vec3 from, Vec2 u, Random& r) {
+                 [&](const LightCase& c, const Receiver& from, Vec2 u, Random& r) {
                    const Vec2 v = r.pair();
                    list.push_back({&c, from, u, v, c.light->sample(from, u).has_value(),
                                    c.light->emit({u, v}).has_value()});
@@ -55,13 +55,14 @@ std::vector<Question> questions(const LightCases& cases, int samples, unsigned s
 /// What sample() found, for the methods that look at it again.
 struct Seen {
   const Light* light;
+  Receiver from;
   LightHit hit;
 };
 std::vector<Seen> hits(const std::vector<Question>& list) {
   std::vector<Seen> found;
   for (const Question& q : list)
     if (const auto s = q.light->light->sample(q.from, q.u))
-      found.push_back({q.light->light.get(), s->hit});
+      found.push_back({q.light->light.get(), q.from, s->hit});
   return found;
 }
 
@@ -89,7 +90,7 @@ std::vector<Timing> lightTimings(const LightCases& cases) {
               const auto s = l.sample(q.from, q.u);
               return s ? s->pdf : 0;
             }),
-      {"pdf()", nanoseconds(found, [](const Seen& s) { return s.light->pdf(s.hit); })},
+      {"pdf()", nanoseconds(found, [](const Seen& s) { return s.light->pdf(s.from, s.hit); })},
       {"eval()", nanoseconds(found, [](const Seen& s) { return s.light->eval(s.hit).g; })},
       taken("sampleDerivatives()",
             [](const Light& l, Q q) {

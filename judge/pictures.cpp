@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "judge/pictures.h"
 
+#include <algorithm>
+
 #include "judge/harsh.h"
 #include "judge/plain.h"
 
@@ -12,7 +14,7 @@ template <class Interface>
 std::shared_ptr<Interface> shown(const Plugin& plugin, unsigned seed, Settings& s) {
   Random r(seed);
   for (int tried = 0; tried < 50; ++tried) try {
-      s = shownSettings(*plugin.schema, r);
+      s = shownSettings(*plugin.schema, r, tried < 25);  // not every file is a picture
       return make<Interface>(plugin, s);
     } catch (const std::runtime_error&) {
       continue;  // settings that contradict each other
@@ -31,13 +33,33 @@ std::vector<Picture> picturesOf(const Plugin& plugin, const Effort& effort) {
   if (plugin.kind == "light") {
     const auto light = shown<Light>(plugin, effort.seed, s);
     if (light) light->setScene(kLightScene);
-    return light ? lightPictures({title(), light}, effort) : std::vector<Picture>{};
+    if (!light) return {};
+    return lightPictures({title(), light, !(plugin.entry->lacks & kLacksEmission)}, effort);
   }
   if (plugin.kind == "camera") {
     const auto camera = shown<Camera>(plugin, effort.seed, s);
     return camera ? cameraPictures({title(), camera}, effort) : std::vector<Picture>{};
   }
   return {};
+}
+
+std::string leftOutPictures(const Plugin& plugin, const std::vector<Picture>& pictures) {
+  const auto has = [&](const std::string& file) {
+    return std::any_of(pictures.begin(), pictures.end(),
+                       [&](const Picture& p) { return p.file == file; });
+  };
+  const bool isTried = plugin.kind == "brdf" || plugin.kind == "light" || plugin.kind == "camera";
+  if (!isTried) return "no pictures: there are none of a " + plugin.kind;
+  if (pictures.empty())
+    return "no pictures: it refused all parameters that were tried, or shows nothing";
+  if (plugin.kind != "light") return "";
+  std::string text;
+  if (!has("density.png"))
+    text = "no density.png, derivative.png: no ray meets a delta light by chance";
+  if (!has("flux.png"))
+    text += std::string(text.empty() ? "" : "\n") +
+            "no flux.png, emission.png: the light sends no particles";
+  return text;
 }
 
 bool writePictures(const std::vector<Picture>& pictures, const std::string& folder,

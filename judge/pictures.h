@@ -18,6 +18,9 @@ namespace vestige::judge {
 /// None for kinds that have no tests, and where the plugin refuses what it is given.
 std::vector<Picture> picturesOf(const Plugin& plugin, const Effort& effort);
 
+/// Which of the pictures of its kind are not there, and why; "": all are.
+std::string leftOutPictures(const Plugin& plugin, const std::vector<Picture>& pictures);
+
 std::vector<Picture> brdfPictures(const BrdfCase& c, const Effort& effort);
 std::vector<Picture> lightPictures(const LightCase& c, const Effort& effort);
 std::vector<Picture> cameraPictures(const CameraCase& c, const Effort& effort);

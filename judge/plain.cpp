@@ -84,9 +84,9 @@ Settings plainSettings(const Schema& schema, Random& r) {
   return s;
 }
 
-Settings shownSettings(const Schema& schema, Random& r) {
+Settings shownSettings(const Schema& schema, Random& r, bool withImage) {
   Settings s;
-  bool hasImage = false;
+  bool hasImage = !withImage;
   for (const Parameter& row : schema.params) {
     if (!row.required && !isSwitchedOff(row) && (hasImage || !isImage(row))) continue;
     if (const Value v = plainValue(row, r); v.kind != Value::Kind::none) s[row.name] = v;

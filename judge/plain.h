@@ -14,8 +14,29 @@ Value plainValue(const Parameter& row, Random& r);
 Settings plainSettings(const Schema& schema, Random& r);
 
 /// Defaults, but required rows, the first image and numbers that are 0 (a tilt) have values: what a
-/// picture is made with.
-Settings shownSettings(const Schema& schema, Random& r);
+/// picture is made with. Without images: those that are required only.
+Settings shownSettings(const Schema& schema, Random& r, bool withImage = true);
+
+/// Whether rows were given a value that the plugin took.
+class TriedRows {
+ public:
+  void offer(const Settings& s) {
+    for (const auto& [name, value] : s) taken_.try_emplace(name, false);
+  }
+  void accept(const Settings& s) {
+    for (const auto& [name, value] : s) taken_[name] = true;
+  }
+  /// Rows whose values were always refused, "file (every value was refused), ..."; "": none.
+  std::string refused() const {
+    std::string names;
+    for (const auto& [name, isTaken] : taken_)
+      if (!isTaken) names += (names.empty() ? "" : ", ") + name + " (every value was refused)";
+    return names;
+  }
+
+ private:
+  std::map<std::string, bool> taken_;
+};
 
 /// The rows that plainValue() has nothing for, "color_space (text), ..."; "": none.
 std::string rowsLeftAlone(const Schema& schema);

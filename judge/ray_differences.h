@@ -29,7 +29,8 @@ template <class Map>
 std::optional<Compared> compared(const Map& map, Vec3 found, double noise) {
   const double allowed = kRayTolerance * std::max({1.0, noise, sizeOf(found)});
   const auto seen = trustedDifference(map, kRayStep, allowed, std::max(noise, 0.1));
-  if (!seen) return std::nullopt;
+  if (!seen || hasFineBends(map, *seen, kRayStep, allowed, std::max(noise, 0.1)))
+    return std::nullopt;
   return Compared{*seen, sizeOf(found - *seen) / allowed};
 }
 

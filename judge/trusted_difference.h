@@ -47,6 +47,20 @@ auto trustedDifference(const Map& map, double h, double tolerance, double noise 
   return narrow;
 }
 
+/// Whether the slope that a wide step gave is a mean over fine bends (the knots of a table): then
+/// smaller steps, down to where rounding drowns them, give another one. A method that tells the
+/// slope of the piece it is on is right, and differences cannot show it.
+template <class Map, class Slope>
+bool hasFineBends(const Map& map, const Slope& seen, double h, double tolerance, double noise) {
+  constexpr double epsilon = double(std::numeric_limits<Real>::epsilon());
+  for (double step = h / 8; 4 * noise * epsilon / step < 0.5 * tolerance; step /= 4) {
+    const auto fine = fivePoints(map, step);
+    const double allowed = 0.3 * tolerance + 4 * noise * epsilon / step;
+    if (!fine || !(sizeOf(*fine - seen) < allowed)) return true;
+  }
+  return false;
+}
+
 /// Some unit tangent, by the angle.
 inline Vec3 tangent(Vec3 unit, double angle) {
   const Frame f = Frame::around(unit);

@@ -131,14 +131,16 @@ void LightTree::build(std::span<const Light* const> lights) {
   outside_.clear(), nodes_.clear(), parents_.clear(), places_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light& light = *lights[i];
-    if (!light.isDrawn() && !light.isDelta()) {
-      places_.push_back({-1, -1}), clusters.emplace_back(LightExtent{}, Real(0));
+    const LightTraits traits = light.traits();
+    if (!traits.isDrawn && !traits.isDelta) {
+      places_.push_back({-1, -1});
+      clusters.emplace_back(LightExtent{}, Real(0));
       continue;
     }
     const double power = sane(double(luminance(light.power())));
     const LightExtent extent = light.extent();
     const bool isSomewhere =
-        !light.isInfinite() && !extent.box.isEmpty() && !extent.box.isInfinite();
+        !traits.isInfinite && !extent.box.isEmpty() && !extent.box.isInfinite();
     places_.push_back({int(outside_.size()), isSomewhere ? 0 : -1});
     clusters.emplace_back(extent, Real(power));
     if (isSomewhere) {
@@ -200,7 +202,7 @@ std::optional<Real> LightTree::firstChance(std::int32_t first, Vec3 at) const no
   return a + b > 0 ? std::optional(a / (a + b)) : std::nullopt;
 }
 
-std::optional<LightChoice> LightTree::choose(Vec3 at, Real u) const noexcept {
+std::optional<LightChoice> LightTree::choose(const Receiver& r, Real u) const noexcept {
   if (table_.isEmpty()) return std::nullopt;
   if (only_ >= 0) return LightChoice{only_, 1, u};  // most scenes have one
   const LightChoice entry = table_.choose(u);
@@ -211,7 +213,7 @@ std::optional<LightChoice> LightTree::choose(Vec3 at, Real u) const noexcept {
   for (std::int32_t node = 0;;) {
     const std::int32_t child = nodes_[std::size_t(node)].child;
     if (child < 0) return LightChoice{~child, chance, u};
-    const std::optional<Real> p = firstChance(child, at);
+    const std::optional<Real> p = firstChance(child, r.position);
     if (!p) return std::nullopt;
     const bool isFirst = u < *p;
     const Real share = isFirst ? *p : 1 - *p;
@@ -221,14 +223,14 @@ std::optional<LightChoice> LightTree::choose(Vec3 at, Real u) const noexcept {
   }
 }
 
-Real LightTree::chance(int light, Vec3 at) const noexcept {
+Real LightTree::chance(int light, const Receiver& r) const noexcept {
   if (light == only_) return 1;
   const Place& place = places_[std::size_t(light)];
   if (place.entry < 0) return 0;
   Real chance = table_.chance(place.entry);
   for (std::int32_t node = place.node; node > 0; node = parents_[std::size_t(node)]) {
     const std::int32_t first = node - (node % 2 == 1 ? 0 : 1);
-    const std::optional<Real> p = firstChance(first, at);
+    const std::optional<Real> p = firstChance(first, r.position);
     if (!p) return 0;
     chance *= node == first ? *p : 1 - *p;
   }

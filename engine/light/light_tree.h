@@ -49,10 +49,10 @@ class LightTree {
  public:
   void build(std::span<const Light* const> lights);
 
-  /// Nullopt: there is none, or none of those it came down to reaches that point.
-  std::optional<LightChoice> choose(Vec3 at, Real u) const noexcept;
+  /// Nullopt: there is none, or none of those it came down to reaches the receiver.
+  std::optional<LightChoice> choose(const Receiver& r, Real u) const noexcept;
   /// Of choose() saying so, [0,1].
-  Real chance(int light, Vec3 at) const noexcept;
+  Real chance(int light, const Receiver& r) const noexcept;
 
  private:
   struct Node {

@@ -31,35 +31,38 @@ class AnalyticLight final : public SurfaceLight {
     area_ = Real(sum / (n * n));
   }
 
-  std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override {
+  std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override {
+    const Vec3 from = r.position;
     const std::optional<ConeSample> c = cone(from, u);
-    if (!c) return SurfaceLight::sample(from, u);
+    if (!c) return SurfaceLight::sample(r, u);
     return seen(from, met(from, *c), normalize(place_.linear * c->toShape),
                 c->distance * length(place_.linear * c->toShape), c->pdf);
   }
 
-  Real pdf(const LightHit& hit) const noexcept override {
-    const Real byAngle = conePdf(hit.from);
-    return byAngle > 0 ? byAngle : SurfaceLight::pdf(hit);
+  Real pdf(const Receiver& r, const LightHit& hit) const noexcept override {
+    const Real byAngle = conePdf(r.position);
+    return byAngle > 0 ? byAngle : SurfaceLight::pdf(r, hit);
   }
 
-  LightJacobian sampleDerivatives(Vec3 from, Vec2 u) const noexcept override {
-    if (!(conePdf(from) > 0)) return SurfaceLight::sampleDerivatives(from, u);
+  LightJacobian sampleDerivatives(const Receiver& r, Vec2 u) const noexcept override {
+    const Vec3 from = r.position;
+    if (!(conePdf(from) > 0)) return SurfaceLight::sampleDerivatives(r, u);
     const ConeJacobian c = shape_->towardDerivatives(place_.toObject.point(from), u);
     // Directions turn by the linear part over its scale; the eye comes through the inverse.
     const Mat3 turn = (1 / std::sqrt(place_.areaScale)) * place_.linear;
     return {turn * c.du, turn * c.dFrom * place_.toObject.linear()};
   }
 
-  LightLogGradient logGradient(Vec3 from, Vec2 u) const noexcept override {
+  LightLogGradient logGradient(const Receiver& r, Vec2 u) const noexcept override {
+    const Vec3 from = r.position;
     const std::optional<ConeSample> c = cone(from, u);
-    if (!c) return SurfaceLight::logGradient(from, u);
+    if (!c) return SurfaceLight::logGradient(r, u);
     // A direction was drawn: only the radiance changes, with the point that it meets [MATH 1.3].
     const SurfacePoint p = met(from, *c);
     const Vec3 w = normalize(place_.linear * c->toShape), n = p.geometricNormal;
     const Real distance = length(p.position - from), cosine = dot(w, n);
     if (std::abs(cosine) < Real(1e-3)) return {};
-    const LightJacobian turn = sampleDerivatives(from, u);
+    const LightJacobian turn = sampleDerivatives(r, u);
     const auto along = [&](Vec3 dFrom, Vec3 dToLight) {
       const Vec3 moved = dFrom + distance * dToLight;
       return radianceSlope(p, moved - dot(n, moved) / cosine * w);

@@ -13,19 +13,19 @@ LightSample SurfaceLight::seen(Vec3 from, const SurfacePoint& p, Vec3 toLight, R
   return {hit, radiance_(p), pdf};
 }
 
-std::optional<LightSample> SurfaceLight::sample(Vec3 from, Vec2 u) const noexcept {
+std::optional<LightSample> SurfaceLight::sample(const Receiver& r, Vec2 u) const noexcept {
   const std::optional<AreaSample> a = draw(u);
   if (!a) return std::nullopt;
-  const Vec3 way = a->point.position - from;
+  const Vec3 way = a->point.position - r.position;
   const Real distance = length(way);
   if (!(distance > 0)) return std::nullopt;
   const Vec3 toLight = way / distance;
   const Real cosine = std::abs(dot(a->point.geometricNormal, toLight));
   if (!(cosine > 0) || !shinesTo(a->point.geometricNormal, toLight)) return std::nullopt;
-  return seen(from, a->point, toLight, distance, a->pdf * distance * distance / cosine);
+  return seen(r.position, a->point, toLight, distance, a->pdf * distance * distance / cosine);
 }
 
-Real SurfaceLight::pdf(const LightHit& hit) const noexcept {
+Real SurfaceLight::pdf(const Receiver&, const LightHit& hit) const noexcept {
   const Real cosine = std::abs(dot(hit.normal, hit.toLight));
   if (!(cosine > 0) || !shinesTo(hit.normal, hit.toLight)) return 0;
   return areaPdf(hit.normal) * hit.distance * hit.distance / cosine;
@@ -39,20 +39,20 @@ Rgb SurfaceLight::eval(const LightHit& hit) const noexcept {
   return radiance_(p);
 }
 
-LightJacobian SurfaceLight::sampleDerivatives(Vec3 from, Vec2 u) const noexcept {
+LightJacobian SurfaceLight::sampleDerivatives(const Receiver& r, Vec2 u) const noexcept {
   const std::optional<AreaSample> a = draw(u);
   if (!a) return {};
-  const Vec3 way = a->point.position - from;
+  const Vec3 way = a->point.position - r.position;
   const Real distance = length(way);
   if (!(distance > 0)) return {};
   const Mat3 across = (1 / distance) * projection(way / distance);  // d(W) = P(W) (dP - dV) / d
   return {across * a->du, Real(-1) * across};
 }
 
-LightLogGradient SurfaceLight::logGradient(Vec3 from, Vec2 u) const noexcept {
+LightLogGradient SurfaceLight::logGradient(const Receiver& r, Vec2 u) const noexcept {
   const std::optional<AreaSample> a = draw(u);
   if (!a) return {};
-  const Vec3 way = a->point.position - from;
+  const Vec3 way = a->point.position - r.position;
   const Real distance = length(way);
   if (!(distance > 0)) return {};
   const Vec3 w = way / distance, n = a->point.geometricNormal;

@@ -16,12 +16,11 @@ class SurfaceLight : public Light {
   SurfaceLight(Radiance radiance, bool twoSided, Rgb meanRadiance)
       : radiance_(std::move(radiance)), mean_(meanRadiance), twoSided_(twoSided) {}
 
-  bool isDelta() const noexcept override { return false; }
-  std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override;
-  Real pdf(const LightHit& hit) const noexcept override;
+  std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override;
+  Real pdf(const Receiver& r, const LightHit& hit) const noexcept override;
   Rgb eval(const LightHit& hit) const noexcept override;
-  LightJacobian sampleDerivatives(Vec3 from, Vec2 u) const noexcept override;
-  LightLogGradient logGradient(Vec3 from, Vec2 u) const noexcept override;
+  LightJacobian sampleDerivatives(const Receiver& r, Vec2 u) const noexcept override;
+  LightLogGradient logGradient(const Receiver& r, Vec2 u) const noexcept override;
   std::optional<Particle> emit(EmissionNumbers u) const noexcept override;
   RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept override;
   Rgb power() const noexcept override;

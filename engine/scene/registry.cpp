@@ -29,9 +29,11 @@ fs::path programFolder() {
 std::string noteOnDifferences(const Plugin& plugin) {
   const bool sampled = plugin.entry->lacks & kLacksSampleDerivatives;
   const bool gradient = plugin.entry->lacks & kLacksLogGradient;
-  const char* missing = !gradient  ? "no derivatives of its sampled directions"
-                        : !sampled ? "no gradient of its value"
-                                   : "no derivatives of its own";
+  const bool emission = plugin.entry->lacks & kLacksEmissionDerivatives;
+  const char* missing = sampled + gradient + emission > 1 ? "no derivatives of its own"
+                        : sampled  ? "no derivatives of its sampled directions"
+                        : gradient ? "no gradient of its value"
+                                   : "no derivatives of its particles";
   return fmt::format("{} '{}' gives {}: finite differences stand in, slower and less exact",
                      plugin.kind, plugin.name, missing);
 }

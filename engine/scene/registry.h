@@ -74,7 +74,7 @@ class Registry {
     const Plugin* plugin = find(kind, name);
     void* made = plugin ? plugin->entry->create(&values, &host, &error) : nullptr;
     if (!made) return nullptr;
-    if (plugin->entry->lacks) host.note(noteOnDifferences(*plugin));
+    if (plugin->entry->lacks & kLacksDerivatives) host.note(noteOnDifferences(*plugin));
     return std::shared_ptr<Interface>(static_cast<Interface*>(made), plugin->entry->destroy);
   }
 

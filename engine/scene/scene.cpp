@@ -19,14 +19,14 @@ void Scene::Impl::commit(const std::shared_ptr<const World::Body>& before) {
   for (std::size_t i = 0; i < ownedLights.size(); ++i) {
     ownedLights[i]->setScene(world.bounds());
     lightList.push_back(ownedLights[i].get());
-    if (ownedLights[i]->isInfinite()) infinite.push_back(int(i));
+    if (ownedLights[i]->traits().isInfinite) infinite.push_back(int(i));
   }
   std::vector<double> powers;
   for (const Light* l : lightList) powers.push_back(double(luminance(l->power())));
   lightsByPower.build(powers);
   lightTree.build(lightList);
   for (const Material& m : materials) hasTextures |= m.usesFootprint;
-  for (const int i : infinite) hasTextures |= lightList[std::size_t(i)]->usesSpread();
+  for (const int i : infinite) hasTextures |= lightList[std::size_t(i)]->traits().usesSpread;
 }
 
 Real Scene::Impl::transmittance(const Ray& ray) const noexcept {
@@ -36,14 +36,14 @@ Real Scene::Impl::transmittance(const Ray& ray) const noexcept {
   return world.transmittance(ray, opacity, this);
 }
 
-Rgb Scene::Impl::emitted(const Surface& s, Vec3 from) const noexcept {
-  return s.light < 0 ? Rgb{} : lightList[std::size_t(s.light)]->eval(seenFrom(s, from));
+Rgb Scene::Impl::emitted(const Surface& s, const Receiver& r) const noexcept {
+  return s.light < 0 ? Rgb{} : lightList[std::size_t(s.light)]->eval(seenFrom(s, r.position));
 }
 
-Real Scene::Impl::lightPdf(const Surface& s, Vec3 from) const noexcept {
-  return s.light < 0 ? 0
-                     : lightTree.chance(s.light, from) *
-                           lightList[std::size_t(s.light)]->pdf(seenFrom(s, from));
+Real Scene::Impl::lightPdf(const Surface& s, const Receiver& r) const noexcept {
+  if (s.light < 0) return 0;
+  return lightTree.chance(s.light, r) *
+         lightList[std::size_t(s.light)]->pdf(r, seenFrom(s, r.position));
 }
 
 Scene::Scene() : impl_(std::make_unique<Impl>()) {}

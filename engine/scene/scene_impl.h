@@ -45,17 +45,17 @@ struct Scene::Impl final : SceneView {
     interact(material(surface), surface, toPrev, footprint, buffer, result);
   }
   Real opacity(const Surface& s) const noexcept override { return material(s).opacityAt(s); }
-  Rgb emitted(const Surface& surface, Vec3 from) const noexcept override;
-  Real lightPdf(const Surface& surface, Vec3 from) const noexcept override;
+  Rgb emitted(const Surface& surface, const Receiver& r) const noexcept override;
+  Real lightPdf(const Surface& surface, const Receiver& r) const noexcept override;
   std::span<const Light* const> lights() const noexcept override { return lightList; }
   std::optional<LightChoice> chooseLight(Real u) const noexcept override {
     return lightList.empty() ? std::nullopt : std::optional(lightsByPower.choose(u));
   }
-  std::optional<LightChoice> chooseLight(Vec3 at, Real u) const noexcept override {
-    return lightTree.choose(at, u);
+  std::optional<LightChoice> chooseLight(const Receiver& r, Real u) const noexcept override {
+    return lightTree.choose(r, u);
   }
-  Real lightChance(int light, Vec3 at) const noexcept override {
-    return lightTree.chance(light, at);
+  Real lightChance(int light, const Receiver& r) const noexcept override {
+    return lightTree.chance(light, r);
   }
   std::span<const int> infiniteLights() const noexcept override { return infinite; }
   bool usesFootprints() const noexcept override { return hasTextures; }

@@ -140,7 +140,7 @@ class Distributed final : public Integrator {
     PathReport* recorded = std::exchange(report, nullptr);
     if (recorded) recorded->scatter(v.s, v.x.toPrev, grey(1), next, node.footprint);
     EyePath below;
-    below.leave(v.s, next, split_.count);
+    below.leave(v, next, split_.count);
     below.throughput = grey(1);  // the sum is weighted on the way back
     below.drawn.lightSamples = Real(lightSamples_);
     below.stream = child.stream;

@@ -176,7 +176,7 @@ class PathIntegrator final : public Integrator {
       return false;
     }
     path.report.scatter(v.s, v.x.toPrev, path.throughput, *drawn, path.footprint);
-    path.leave(v.s, *drawn, siblings);
+    path.leave(v, *drawn, siblings);
     const bool goesOn =
         !isBlack(path.throughput) &&
         (path.edge < kRouletteFrom || path.survives(path.number(c.sampler, dimension::kRoulette)));

@@ -74,7 +74,7 @@ class Simple final : public Integrator {
     if (!next || isBlack(next->weight)) return false;
     if (vertex == 0 && c.aovs) c.aovs->albedo = next->local.weight;
     p.throughput *= next->weight;
-    p.drawn = {p.s.position, next->local.specular ? kInfinity : next->local.pdf};
+    p.drawn = {receiverAt(p.s, p.x), next->local.specular ? kInfinity : next->local.pdf};
     p.ray = spawnRay(p.s, next->toNext);
     if (vertex + 1 < kRouletteFrom) return true;
     const Real survival = survivalProbability(p.throughput);

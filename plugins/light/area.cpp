@@ -55,21 +55,20 @@ class Area final : public Light {
     if (mirrored) mesh_.triangles = {{0, 2, 1}, {0, 3, 2}};
   }
 
-  bool isDelta() const noexcept override { return false; }
-
   const TriangleMesh* geometry() const noexcept override { return &mesh_; }
 
-  std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override {
-    const Vec3 position = at(u), way = position - from;
+  std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override {
+    const Vec3 position = at(u), way = position - r.position;
     const Real distance = length(way);
     std::optional<LightSample> s(std::in_place);
-    s->hit = {from, way / distance, distance, position, normal_, u};
-    s->radiance = radiance_, s->pdf = pdf(s->hit);
+    s->hit = {r.position, way / distance, distance, position, normal_, u};
+    s->radiance = radiance_;
+    s->pdf = pdf(r, s->hit);
     if (!(s->pdf > 0) || !std::isfinite(s->pdf)) s.reset();
     return s;
   }
 
-  Real pdf(const LightHit& hit) const noexcept override {
+  Real pdf(const Receiver&, const LightHit& hit) const noexcept override {
     const Real c = cosine(hit.toLight);
     return c > 0 ? sqr(hit.distance) / (area_ * c) : 0;
   }
@@ -78,15 +77,15 @@ class Area final : public Light {
     return cosine(hit.toLight) > 0 ? radiance_ : Rgb{};
   }
 
-  LightJacobian sampleDerivatives(Vec3 from, Vec2 u) const noexcept override {
-    const Vec3 way = at(u) - from;  // [MATH 1.11]
+  LightJacobian sampleDerivatives(const Receiver& r, Vec2 u) const noexcept override {
+    const Vec3 way = at(u) - r.position;  // [MATH 1.11]
     const Mat3 turn = (1 / length(way)) * projection(normalize(way));
     return {.du = turn * edge_, .dFrom = Real(-1) * turn};
   }
 
-  LightLogGradient logGradient(Vec3 from, Vec2 u) const noexcept override {
+  LightLogGradient logGradient(const Receiver& r, Vec2 u) const noexcept override {
     // log (cos / distance^2) = log |normal . way| - 3/2 log way^2
-    const Vec3 way = at(u) - from;
+    const Vec3 way = at(u) - r.position;
     const Real c = dot(normal_, way);
     if (c == 0) return {};
     const Vec3 dWay = normal_ / c - 3 / lengthSquared(way) * way;

@@ -54,21 +54,22 @@ class Environment final : public Light {
     if (!image_) flux_ = 4 * kPi * radiance_;
   }
 
-  bool isDelta() const noexcept override { return false; }
-  bool isInfinite() const noexcept override { return true; }
-  bool isDrawn() const noexcept override { return image_ != nullptr; }
+  LightTraits traits() const noexcept override {
+    const bool hasImage = image_ != nullptr;
+    return {.isInfinite = true, .isDrawn = hasImage, .usesSpread = hasImage};
+  }
   void setScene(const Bounds& scene) override { disk_ = SceneDisk::around(scene); }
 
-  std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override {
+  std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override {
     const std::optional<Direction> d = draw(u);
     if (!d) return std::nullopt;
-    const LightHit hit = {from, d->d, kInfinity, {}, {}, uvOf(local(d->d)).uv};
-    const Real density = pdf(hit);
+    const LightHit hit = {r.position, d->d, kInfinity, {}, {}, uvOf(local(d->d)).uv};
+    const Real density = pdf(r, hit);
     if (!(density > 0)) return std::nullopt;  // rounding led out of the cell, into a black one
     return LightSample{hit, eval(hit), density};
   }
 
-  Real pdf(const LightHit& hit) const noexcept override {
+  Real pdf(const Receiver&, const LightHit& hit) const noexcept override {
     if (!image_) return 1 / (4 * kPi);
     const Place p = uvOf(local(hit.toLight));
     const Vec2 density = grid_.density(p.uv);
@@ -91,12 +92,12 @@ class Environment final : public Light {
     return radiance_ * lit(image_->lookup(p.uv, spread).colour);
   }
 
-  LightJacobian sampleDerivatives(Vec3, Vec2 u) const noexcept override {
+  LightJacobian sampleDerivatives(const Receiver&, Vec2 u) const noexcept override {
     const std::optional<Direction> d = draw(u);
     return {.du = d ? d->du : Mat3x2{}, .dFrom = {}};
   }
 
-  LightLogGradient logGradient(Vec3, Vec2 u) const noexcept override {
+  LightLogGradient logGradient(const Receiver&, Vec2 u) const noexcept override {
     if (!image_ || grid_.isEmpty()) return {};
     const GridDistribution::Sample s = grid_.sample(u);
     const Real here = luminance(radiance_ * lookup(s.p));
@@ -125,8 +126,6 @@ class Environment final : public Light {
     return {.dOrigin = {disk.c[0], disk.c[1], turned(d->du.c[0]), turned(d->du.c[1])},
             .dDirection = {Vec3{}, Vec3{}, -d->du.c[0], -d->du.c[1]}};
   }
-
-  bool usesSpread() const noexcept override { return image_ != nullptr; }
 
   Rgb power() const noexcept override { return disk_.area() * flux_; }
 

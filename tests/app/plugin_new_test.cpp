@@ -49,7 +49,11 @@ TEST_CASE("--dual and --into are heard", "[app][plugin]") {
   std::filesystem::create_directory(folder.path() / "mine");
   CHECK(make(folder, {"brdf", "fur", "--dual", "--into", "mine"}).exit == 0);
   CHECK_THAT(contents(folder / "mine/fur/fur.cpp"), containsText("DualBrdf<Fur>"));
-  CHECK(make(folder, {"light", "fur", "--dual"}).exit == 2);
+  CHECK(make(folder, {"light", "dome", "--dual"}).exit == 0);
+  CHECK_THAT(contents(folder / "dome/dome.cpp"), containsText("DualLight<Dome>"));
+  CHECK(make(folder, {"camera", "eye", "--dual"}).exit == 0);
+  CHECK_THAT(contents(folder / "eye/eye.cpp"), containsText("DualCamera<Eye>"));
+  CHECK(make(folder, {"shape", "fur", "--dual"}).exit == 2);
   CHECK_THAT(make(folder, {"brdf", "silk", "--into", "yours"}).err,
              containsText("no folder 'yours'"));
 }

@@ -17,15 +17,14 @@ class Lamp final : public Light {
   Lamp(Vec3 location, Real watts, Vec3 axis = {0, 0, 1}, Real reach = kPi)
       : location_(location), axis_(axis), watts_(watts), reach_(reach) {}
 
-  bool isDelta() const noexcept override { return isWanted; }  // a delta light is always drawn
-  std::optional<LightSample> sample(Vec3, Vec2) const noexcept override { return std::nullopt; }
-  Real pdf(const LightHit&) const noexcept override { return 0; }
+  LightTraits traits() const noexcept override {
+    return {.isDelta = isWanted, .isDrawn = isWanted};  // a delta light is always drawn
+  }
+  std::optional<LightSample> sample(const Receiver&, Vec2) const noexcept override {
+    return std::nullopt;
+  }
+  Real pdf(const Receiver&, const LightHit&) const noexcept override { return 0; }
   Rgb eval(const LightHit&) const noexcept override { return {}; }
-  LightJacobian sampleDerivatives(Vec3, Vec2) const noexcept override { return {}; }
-  LightLogGradient logGradient(Vec3, Vec2) const noexcept override { return {}; }
-  std::optional<Particle> emit(EmissionNumbers) const noexcept override { return std::nullopt; }
-  RayJacobian emissionDerivatives(EmissionNumbers) const noexcept override { return {}; }
-  bool isDrawn() const noexcept override { return isWanted; }
   LightExtent extent() const noexcept override {
     if (isAnywhere) return {};
     return {{location_, location_}, axis_, 0, reach_};
@@ -93,20 +92,20 @@ TEST_CASE("lights are chosen with the chances that are told", "[lights]") {
       std::vector<int> drawn(lamps.list.size());
       int nothing = 0;
       for (int i = 0; i < kDraws; ++i) {
-        const auto choice = lamps.tree.choose(at, (Real(i) + Real(0.5)) / kDraws);
+        const auto choice = lamps.tree.choose({at}, (Real(i) + Real(0.5)) / kDraws);
         if (!choice) {
           ++nothing;
           continue;
         }
         ++drawn[std::size_t(choice->light)];
-        const Real told = lamps.tree.chance(choice->light, at);
+        const Real told = lamps.tree.chance(choice->light, {at});
         if (std::abs(told - choice->chance) > Real(1e-4) * told) {
           FAIL("light " << choice->light << ": chance " << choice->chance << ", told " << told);
         }
       }
       double sum = double(nothing) / kDraws;
       for (std::size_t l = 0; l < drawn.size(); ++l) {
-        const auto chance = double(lamps.tree.chance(int(l), at));
+        const auto chance = double(lamps.tree.chance(int(l), {at}));
         INFO(n << " lights, light " << l << " at place " << place);
         CHECK(std::abs(double(drawn[l]) / kDraws - chance) < 3e-5 + 1e-3 * chance);
         if (drawn[l] > 0) sum += chance;
@@ -128,7 +127,7 @@ TEST_CASE("a light that wants no rays drawn towards it has no chance", "[lights]
       REQUIRE(choice.has_value() == (wanted > 0));
       if (choice) CHECK(choice->light < wanted);
     }
-    for (int i = 0; i < 7; ++i) CHECK((lamps.tree.chance(i, within(10, r)) > 0) == (i < wanted));
+    for (int i = 0; i < 7; ++i) CHECK((lamps.tree.chance(i, within(10, {r})) > 0) == (i < wanted));
   }
 }
 
@@ -140,7 +139,7 @@ TEST_CASE("no light that reaches a point is left out", "[lights]") {
     for (std::size_t l = 0; l < lamps.owned.size(); ++l)
       if (lamps.owned[l]->irradiance(at) > 0) {
         INFO("light " << l << " at " << at.x << ' ' << at.y << ' ' << at.z);
-        REQUIRE(lamps.tree.chance(int(l), at) > 0);
+        REQUIRE(lamps.tree.chance(int(l), {at}) > 0);
       }
   }
 }
@@ -154,7 +153,7 @@ TEST_CASE("lights do not say that they reach less far than they do", "[lights]")
     int reached = 0;
     for (int i = 0; i < 20000; ++i) {
       const Vec3 from = extent.box.centre() + within(i % 2 ? 4 : 40, r);
-      const auto drawn = c.light->sample(from, r.pair());
+      const auto drawn = c.light->sample({from}, r.pair());
       if (!drawn || isBlack(drawn->radiance)) continue;
       ++reached;
       if (!(cluster.importance(from) > 0)) {
@@ -185,7 +184,7 @@ TEST_CASE("lights that matter are chosen more often", "[lights]") {
     constexpr int kDraws = 20000;
     double sum = 0, squares = 0, tableSquares = 0;
     for (int i = 0; i < kDraws; ++i) {
-      const auto choice = lamps.tree.choose(at, r.number());
+      const auto choice = lamps.tree.choose({at}, r.number());
       const double x =
           choice ? lamps.owned[std::size_t(choice->light)]->irradiance(at) / double(choice->chance)
                  : 0;
@@ -214,10 +213,10 @@ TEST_CASE("a tree of lights that are hard to tell apart", "[lights]") {
   heap.build();
   for (const Vec3 at : {Vec3{1, 1, 1}, Vec3{5, 0, 0}, Vec3{1e6, 0, 0}}) {
     double sum = 0;
-    for (int l = 0; l < 1000; ++l) sum += double(heap.tree.chance(l, at));
+    for (int l = 0; l < 1000; ++l) sum += double(heap.tree.chance(l, {at}));
     CHECK(sum == Approx(1).margin(1e-3));
-    CHECK(heap.tree.choose(at, Real(0.3)));
-    for (const int unknown : {0, 1}) CHECK(heap.tree.chance(unknown, at) > Real(0.05 / 1000));
+    CHECK(heap.tree.choose({at}, Real(0.3)));
+    for (const int unknown : {0, 1}) CHECK(heap.tree.chance(unknown, {at}) > Real(0.05 / 1000));
   }
 
   Lamps away;  // shines the other way: nothing is drawn, and nothing is lost
@@ -234,10 +233,10 @@ TEST_CASE("a hundred thousand lights", "[lights]") {
   int chosen = 0;
   for (int place = 0; place < 100; ++place) {
     const Vec3 at = within(10, r);
-    const auto choice = lamps.tree.choose(at, r.number());
+    const auto choice = lamps.tree.choose({at}, r.number());
     if (!choice) continue;
     ++chosen;
-    CHECK(lamps.tree.chance(choice->light, at) == Approx(choice->chance).epsilon(1e-3));
+    CHECK(lamps.tree.chance(choice->light, {at}) == Approx(choice->chance).epsilon(1e-3));
   }
   CHECK(chosen > 50);
 }

@@ -30,7 +30,7 @@ class PatchRadiosity final : public Integrator {
     const std::optional<Surface> hit = c.scene.intersect(c.ray);
     if (!hit) return {};
     const Patch& patch = c.scene.patches()[std::size_t(hit->patch)];
-    return c.scene.emitted(*hit, c.ray.origin) +
+    return c.scene.emitted(*hit, {c.ray.origin}) +
            flux_[std::size_t(hit->patch)] / (kPi * patch.area * Real(particles_));
   }
 

@@ -84,7 +84,7 @@ LightHit hitOf(Vec3 from, Vec3 toLight, const Surface& s) {
 double densityAlong(const World& world, const Light& light, bool byAngle, Ray ray) {
   double sum = 0;
   while (const auto s = world.intersect(ray)) {
-    sum += double(light.pdf(hitOf(ray.origin, ray.direction, *s))) *
+    sum += double(light.pdf({ray.origin}, hitOf(ray.origin, ray.direction, *s))) *
            std::abs(dot(s->geometricNormal, ray.direction));
     if (byAngle) break;
     ray.tMin = s->distance * (1 + Real(1e-5)) + Real(1e-5);
@@ -108,13 +108,13 @@ TEST_CASE("a shining shape is sampled with the density that it tells", "[light]"
     // Weighted by the cosine at the light: the density by angle has a pole where that is zero.
     std::vector<double> drawn(64), expected(64), squares(64);
     for (int k = 0; k < n; ++k) {
-      const auto s = light->sample(kFrom, random.square());
+      const auto s = light->sample({kFrom}, random.square());
       if (!s) continue;
       const double cosine = std::abs(dot(s->hit.normal, s->hit.toLight));
       drawn[bins.of(s->hit.toLight)] += cosine;
       squares[bins.of(s->hit.toLight)] += cosine * cosine;
       if (k % 50) continue;
-      CHECK(light->pdf(s->hit) == Approx(s->pdf).epsilon(2e-3));
+      CHECK(light->pdf({s->hit.from}, s->hit) == Approx(s->pdf).epsilon(2e-3));
       CHECK(s->radiance == Rgb{2, 3, 4});
       CHECK(light->eval(s->hit) == Rgb{2, 3, 4});
       CHECK(length(kFrom + s->hit.distance * s->hit.toLight - s->hit.position) < 1e-4);
@@ -159,14 +159,15 @@ TEST_CASE("radiance that varies over a light counts in its gradient", "[light]")
     for (int k = 0; k < 400; ++k) {
       const Vec3 from = k % 2 ? kFrom : Vec3{-4, 1, 2};
       const Vec2 u{Real(random.between(0.05, 0.95)), Real(random.between(0.05, 0.95))};
-      const auto s = varied->sample(from, u);
+      const auto s = varied->sample({from}, u);
       if (!s || std::abs(dot(s->hit.normal, s->hit.toLight)) < Real(0.15)) continue;
-      const LightLogGradient all = varied->logGradient(from, u), some = even->logGradient(from, u);
-      const LightJacobian j = varied->sampleDerivatives(from, u);
+      const LightLogGradient all = varied->logGradient({from}, u),
+                             some = even->logGradient({from}, u);
+      const LightJacobian j = varied->sampleDerivatives({from}, u);
       const Vec3 p = j.du.c[0], q = j.du.c[1];
       const auto compare = [&](Real told, Vec3 dFrom, Vec2 du) {
-        const auto a = varied->sample(from - h * dFrom, u - h * du);
-        const auto b = varied->sample(from + h * dFrom, u + h * du);
+        const auto a = varied->sample({from - h * dFrom}, u - h * du);
+        const auto b = varied->sample({from + h * dFrom}, u + h * du);
         if (!a || !b) return;
         // Directions drawn by angle may be turned about the axis, which is a shift of the numbers.
         const Vec3 spin =
@@ -206,10 +207,10 @@ TEST_CASE("derivatives of a sampled light agree with differences", "[light]") {
     for (int k = 0; k < 600; ++k) {
       const Vec3 from = k % 2 ? kFrom : Vec3{-4, 1, 2};
       const Vec2 u{Real(random.between(0.02, 0.98)), Real(random.between(0.02, 0.98))};
-      const auto s = light->sample(from, u);
+      const auto s = light->sample({from}, u);
       if (!s) continue;
-      const LightJacobian j = light->sampleDerivatives(from, u);
-      const LightLogGradient g = light->logGradient(from, u);
+      const LightJacobian j = light->sampleDerivatives({from}, u);
+      const LightLogGradient g = light->logGradient({from}, u);
       const bool cone = length(g.dFrom) == 0;
       const auto factor = [&](const LightSample& x) {
         return std::log(double(std::abs(dot(x.hit.normal, x.hit.toLight))) /
@@ -224,7 +225,7 @@ TEST_CASE("derivatives of a sampled light agree with differences", "[light]") {
         for (const Real step : {h, -h}) {
           Vec2 a = u, b = u;
           (axis ? a.y : a.x) += step, (axis ? b.y : b.x) += 2 * step;
-          const auto sa = light->sample(from, a), sb = light->sample(from, b);
+          const auto sa = light->sample({from}, a), sb = light->sample({from}, b);
           if (!sa || !sb) continue;
           const Vec3 d =
               (Real(4) * sa->hit.toLight - Real(3) * s->hit.toLight - sb->hit.toLight) / (2 * step);
@@ -240,7 +241,7 @@ TEST_CASE("derivatives of a sampled light agree with differences", "[light]") {
       for (int axis = 0; axis < 3; ++axis) {
         Vec3 e;
         e[axis] = kDouble ? Real(1e-4) : Real(1e-2);
-        const auto a = light->sample(from - e, u), b = light->sample(from + e, u);
+        const auto a = light->sample({from - e}, u), b = light->sample({from + e}, u);
         if (!a || !b) continue;
         const Vec3 d = (b->hit.toLight - a->hit.toLight) / (2 * e[axis]);
         // Directions drawn by angle may be turned about the axis: up to that they must agree.

@@ -70,6 +70,11 @@ done
 quietly vestige plugin new brdf soft_fur --dual --into "$work/home"
 build_plugin home/soft_fur
 render home/soft_fur soft_fur
+for kind in light camera; do
+  quietly vestige plugin new "$kind" "dual_$kind" --dual
+  build_plugin "dual_$kind"
+  render "dual_$kind" "dual_$kind"
+done
 
 # One symbol is exported, whatever is in the library.
 exported=$(nm -D --defined-only home/soft_fur/build/brdf_soft_fur.so | awk '$2 ~ /[DRTB]/ { print $3 }')
@@ -78,7 +83,9 @@ exported=$(nm -D --defined-only home/soft_fur/build/brdf_soft_fur.so | awk '$2 ~
 # Its own tests, where this program has them.
 if vestige plugin --help | grep -q '^ *test '; then
   quietly ctest --test-dir home/soft_fur/build --output-on-failure
-  quietly ctest --test-dir my_light/build --output-on-failure
+  for plugin in my_light dual_light my_camera dual_camera; do
+    quietly ctest --test-dir "$plugin/build" --output-on-failure
+  done
 else
   quietly ctest --test-dir home/soft_fur/build --output-on-failure -R scene
 fi
@@ -119,4 +126,7 @@ for example in "$prefix"/share/vestige/examples/plugins/*/; do
   cp -r "$example" "$work/$name"
   build_plugin "$work/$name"
   render "$work/$name" "$name"
+  if vestige plugin --help | grep -q '^ *test '; then
+    quietly ctest --test-dir "$work/$name/build" --output-on-failure
+  fi
 done

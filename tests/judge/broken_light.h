@@ -12,19 +12,20 @@ namespace vestige::test {
 class AsGoodLight : public Light {
  public:
   explicit AsGoodLight(std::shared_ptr<const Light> good) : good(std::move(good)) {}
-  bool isDelta() const noexcept override { return good->isDelta(); }
-  bool isInfinite() const noexcept override { return good->isInfinite(); }
+  LightTraits traits() const noexcept override { return good->traits(); }
   const TriangleMesh* geometry() const noexcept override { return good->geometry(); }
-  std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override {
-    return good->sample(from, u);
+  std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override {
+    return good->sample(r, u);
   }
-  Real pdf(const LightHit& hit) const noexcept override { return good->pdf(hit); }
+  Real pdf(const Receiver& r, const LightHit& hit) const noexcept override {
+    return good->pdf(r, hit);
+  }
   Rgb eval(const LightHit& hit) const noexcept override { return good->eval(hit); }
-  LightJacobian sampleDerivatives(Vec3 from, Vec2 u) const noexcept override {
-    return good->sampleDerivatives(from, u);
+  LightJacobian sampleDerivatives(const Receiver& r, Vec2 u) const noexcept override {
+    return good->sampleDerivatives(r, u);
   }
-  LightLogGradient logGradient(Vec3 from, Vec2 u) const noexcept override {
-    return good->logGradient(from, u);
+  LightLogGradient logGradient(const Receiver& r, Vec2 u) const noexcept override {
+    return good->logGradient(r, u);
   }
   std::optional<Particle> emit(EmissionNumbers u) const noexcept override { return good->emit(u); }
   RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept override {
@@ -47,9 +48,11 @@ struct PdfByArea final : AsGoodLight {
   static Real byArea(const LightHit& h, Real pdf) {
     return pdf * std::abs(dot(h.normal, h.toLight)) / sqr(h.distance);
   }
-  Real pdf(const LightHit& h) const noexcept override { return byArea(h, good->pdf(h)); }
-  std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override {
-    auto s = good->sample(from, u);
+  Real pdf(const Receiver& r, const LightHit& h) const noexcept override {
+    return byArea(h, good->pdf(r, h));
+  }
+  std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override {
+    auto s = good->sample(r, u);
     if (s) s->pdf = byArea(s->hit, s->pdf);
     return s;
   }
@@ -75,14 +78,14 @@ struct WrongEmission final : AsGoodLight {
 
 struct ForgottenFrom final : AsGoodLight {
   using AsGoodLight::AsGoodLight;
-  LightJacobian sampleDerivatives(Vec3 from, Vec2 u) const noexcept override {
-    return {good->sampleDerivatives(from, u).du, {}};
+  LightJacobian sampleDerivatives(const Receiver& r, Vec2 u) const noexcept override {
+    return {good->sampleDerivatives(r, u).du, {}};
   }
 };
 
 struct NoLightGradient final : AsGoodLight {
   using AsGoodLight::AsGoodLight;
-  LightLogGradient logGradient(Vec3, Vec2) const noexcept override { return {}; }
+  LightLogGradient logGradient(const Receiver&, Vec2) const noexcept override { return {}; }
 };
 
 class AsGoodCamera : public Camera {

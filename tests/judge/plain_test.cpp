@@ -23,8 +23,8 @@ int titled(const Cases& cases, const std::string& words) {
 
 TEST_CASE("judge: lights and cameras get files, blocks and a lens", "[judge]") {
   const auto skies = judge::lightCases(pluginNamed("light", "environment"), 20, 1);
-  CHECK(titled(skies, "map picture.exr") > 0);
-  CHECK(titled(skies, "image { image }") > 0);
+  CHECK(titled(skies, "map \"picture.exr\"") > 0);
+  CHECK(titled(skies, "image { file \"picture.exr\" }") > 0);
   CHECK(titled(skies, "map") < 20);
   const auto lenses = judge::cameraCases(pluginNamed("camera", "thin_lens"), 20, 1);
   CHECK(std::count_if(lenses.begin(), lenses.end(),

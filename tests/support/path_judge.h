@@ -140,7 +140,7 @@ inline void judgeConnection(const PathTracer& tracer, const Light& light, LightM
   for (std::size_t k = 0; k < base.size() && !isClamped(base[k]); ++k) {
     const TracedVertex& v = base[k];
     const Vec3 from = v.surface.position;
-    const auto drawn = light.sample(from, u);
+    const auto drawn = light.sample({from}, u);
     if (!v.x.brdf || !drawn || !differsSmoothly(u, Real(3 * kPathStep))) return;
     const auto f = [&](const TracedVertex& at, const LightSample& s) -> std::optional<Real> {
       const Real value =
@@ -151,9 +151,9 @@ inline void judgeConnection(const PathTracer& tracer, const Light& light, LightM
                            (measure == LightMeasure::area &&
                             std::abs(dot(drawn->hit.normal, drawn->hit.toLight)) < Real(0.05));
     if (!f(v, *drawn) || isGrazing) return;
-    const LightJacobian jacobian = light.sampleDerivatives(from, u);
+    const LightJacobian jacobian = light.sampleDerivatives({from}, u);
     const LightLogGradient slope =
-        measure == LightMeasure::constant ? LightLogGradient{} : light.logGradient(from, u);
+        measure == LightMeasure::constant ? LightLogGradient{} : light.logGradient({from}, u);
     const auto all = carried[k].connect(v.surface, v.x, drawn->hit.toLight, jacobian, slope);
     REQUIRE(all.size() == carried[k].differentials().size() + 2);
     // What the integrators limit by is the same.
@@ -171,13 +171,13 @@ inline void judgeConnection(const PathTracer& tracer, const Light& light, LightM
         return [&, pick](double x) -> decltype(pick(v, *drawn)) {
           if (own >= 0) {
             const Vec2 uu = own == 0 ? Vec2{u.x + Real(x), u.y} : Vec2{u.x, u.y + Real(x)};
-            const auto s = light.sample(from, uu);
+            const auto s = light.sample({from}, uu);
             if (!s) return std::nullopt;
             return pick(v, *s);
           }
           const auto p = tracer.trace(moved(n, j, x), int(k) + 1, &base);
           if (p.size() <= k) return std::nullopt;
-          const auto s = light.sample(p[k].surface.position, u);
+          const auto s = light.sample({p[k].surface.position}, u);
           if (!s) return std::nullopt;
           return pick(p[k], *s);
         };

@@ -12,17 +12,6 @@
 
 namespace vestige::differences {
 
-/// v, moved with the smallest turn that takes unit a to unit b, b != -a.
-inline Vec3 carried(Vec3 a, Vec3 b, Vec3 v) noexcept {
-  const Vec3 w = cross(a, b);
-  return v + cross(w, v) + cross(w, cross(w, v)) / std::max(1 + dot(a, b), Real(1e-6));
-}
-
-/// The point an angle away from a unit vector along a unit tangent.
-inline Vec3 turned(Vec3 unit, Vec3 along, Real angle) noexcept {
-  return std::cos(angle) * unit + std::sin(angle) * along;
-}
-
 /// The same point seen along another toPrev.
 inline ScatterPoint facing(ScatterPoint p, Vec3 toPrev) noexcept {
   p.toPrev = toPrev;

@@ -8,8 +8,8 @@
 /// Said once, true of every method:
 ///   * The film is the unit square: x from left to right, y from top to bottom; `aspect` is its
 ///     width over its height in square pixels.
-///   * Rays are in world space with unit direction; a camera applies Values::toWorld() when
-///   created.
+///   * Rays are in world space with unit direction; a camera applies Values::toWorld() when it is
+///     created.
 ///   * Methods are const, thread-safe and noexcept; they allocate nothing.
 namespace vestige {
 
@@ -24,6 +24,8 @@ struct CameraSample {
   Rgb weight = {1, 1, 1};  ///< radiance along the ray counts this much
 };
 
+/// Only sample() has no default. DualCamera (dual_camera.h) writes it and its derivatives from one
+/// map.
 class Camera {
  public:
   virtual ~Camera() = default;
@@ -33,13 +35,19 @@ class Camera {
 
   /// Density of the direction at a given origin for uniform film points, 1/sr; 0 off the film. For
   /// cameras whose origin moves with the film (orthographic) there is no such density: 0.
-  virtual Real pdf(Vec3 origin, Vec3 direction, Real aspect) const noexcept = 0;
+  /// By default 0: integrators that connect paths to the camera cannot use it.
+  virtual Real pdf(Vec3 /*origin*/, Vec3 /*direction*/, Real /*aspect*/) const noexcept {
+    return 0;
+  }
 
-  /// Per unit of film coordinate (numbers 0, 1) and of lens number (2, 3).
-  virtual RayJacobian sampleDerivatives(CameraNumbers n) const noexcept = 0;
+  /// Per unit of film coordinate (numbers 0, 1) and of lens number (2, 3). By default: finite
+  /// differences of sample(), and a note to the user.
+  virtual RayJacobian sampleDerivatives(CameraNumbers n) const noexcept;
 
   /// Random numbers that matter: 2, or 4 with a lens.
   virtual int variables() const noexcept { return 2; }
 };
 
 }  // namespace vestige
+
+#include <vestige/camera_differences.h>  // the default of sampleDerivatives()

@@ -12,7 +12,7 @@ namespace vestige {
 
 /// What multiple importance sampling has to know of a ray.
 struct DrawnRay {
-  Vec3 from;                 ///< the last scattering, where directions to lights were drawn too
+  Receiver from;             ///< the last scattering, where directions to lights were drawn too
   Real density = kInfinity;  ///< pdf of its direction times the number of such rays, 1/sr; infinite
                              ///< for rays from the camera and from specular lobes
   Real lightSamples = 1;     ///< directions drawn towards lights at `from`
@@ -37,7 +37,7 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
   Rgb sum;
   for (const int i : scene.infiniteLights()) {
     const Light& light = *scene.lights()[std::size_t(i)];
-    LightHit hit{ray.from, direction, kInfinity, {}, {}, {}};
+    LightHit hit{ray.from.position, direction, kInfinity, {}, {}, {}};
     if (spread) {
       hit.spread[0] = spread[0];
       hit.spread[1] = spread[1];
@@ -47,13 +47,13 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
       sum += radiance;
       continue;
     }
-    const Real rival = ray.lightSamples * scene.lightChance(i, ray.from) * light.pdf(hit);
+    const Real rival = ray.lightSamples * scene.lightChance(i, ray.from) * light.pdf(ray.from, hit);
     sum += powerHeuristic(ray.density, rival) * radiance;
   }
   return sum;
 }
 
-/// A point of a light, drawn from a surface.
+/// A point of a light, drawn for a receiver.
 struct TowardsLight {
   const Light* light = nullptr;
   Vec2 u{};                             ///< random numbers of the point
@@ -62,18 +62,18 @@ struct TowardsLight {
 };
 
 /// One light, one point of it. `index`: of the sample in its sequences.
-inline TowardsLight drawLight(PathContext& c, const Surface& s, std::uint32_t vertex,
+inline TowardsLight drawLight(PathContext& c, const Receiver& r, std::uint32_t vertex,
                               std::uint32_t index) noexcept {
   const std::uint32_t dim = dimension::vertex(vertex);
   // One pair chooses the light and then the point on it, so points are stratified on each light.
   Vec2 u = c.sampler.pair(dim + dimension::kLight, index);
-  const auto choice = c.scene.chooseLight(s.position, u.x);
+  const auto choice = c.scene.chooseLight(r, u.x);
   if (!choice) return {};
   constexpr Real kFewBits = Real(1) / 256;
   u.x = choice->chance > kFewBits ? choice->rest
                                   : c.sampler.number(dim + dimension::kLightChoice, index);
   const Light* light = c.scene.lights()[std::size_t(choice->light)];
-  return {light, u, choice->chance, light->sample(s.position, u)};
+  return {light, u, choice->chance, light->sample(r, u)};
 }
 
 /// Reflected radiance of that point, weighted as one of `samples` against `scattered` rays that
@@ -89,7 +89,8 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
   if (visible == 0) return {};
   const Real density = towards.chance * drawn.pdf;
   const Real weight =
-      towards.light->isDelta() ? 1 : powerHeuristic(samples * density, scattered * value.pdf);
+      towards.light->traits().isDelta ? 1
+                                      : powerHeuristic(samples * density, scattered * value.pdf);
   return (visible * weight / density) * value.fCos * drawn.radiance;
 }
 
@@ -97,7 +98,7 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
 inline Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
                        std::uint32_t index, Real samples = 1, Real scattered = 1) noexcept {
   if (!x.brdf) return {};
-  return reflectedLight(c, s, x, drawLight(c, s, vertex, index), samples, scattered);
+  return reflectedLight(c, s, x, drawLight(c, receiverAt(s, x), vertex, index), samples, scattered);
 }
 
 }  // namespace vestige

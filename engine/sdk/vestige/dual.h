@@ -72,6 +72,11 @@ template <class T>
 struct TVec3 {
   T x{}, y{}, z{};
 };
+/// Where something starts, and along what.
+template <class T>
+struct TRay {
+  TVec3<T> origin, direction;
+};
 template <class T>
 TVec3<T> operator+(const TVec3<T>& a, const TVec3<T>& b) noexcept {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -99,6 +104,11 @@ TVec3<T> normalize(const TVec3<T>& a) noexcept {
 }
 
 inline TVec3<Real> lifted(Vec3 a) noexcept { return {a.x, a.y, a.z}; }
+/// A vector that does not move.
+template <class T>
+TVec3<T> constant(Vec3 a) noexcept {
+  return {T(a.x), T(a.y), T(a.z)};
+}
 inline Vec3 value(const TVec3<Real>& a) noexcept { return {a.x, a.y, a.z}; }
 inline Vec3 value(const TVec3<Dual>& a) noexcept { return {a.x.v, a.y.v, a.z.v}; }
 /// Derivative of a vector by number `lane`.
@@ -125,6 +135,27 @@ inline TVec2<Dual> concentricDisk(const TVec2<Dual>& u) noexcept {
   const Disk k = concentricDisk(Vec2{u.x.v, u.y.v});
   return {{k.d.x, u.x.d * k.du[0].x + u.y.d * k.du[1].x},
           {k.d.y, u.x.d * k.du[0].y + u.y.d * k.du[1].y}};
+}
+
+/// The other maps of sampling.h, with their own derivatives.
+inline TVec3<Dual> mapped(const Direction& k, const TVec2<Dual>& u) noexcept {
+  const auto component = [&](Real v, Real byX, Real byY) {
+    return Dual(v, u.x.d * byX + u.y.d * byY);
+  };
+  return {component(k.d.x, k.du.c[0].x, k.du.c[1].x), component(k.d.y, k.du.c[0].y, k.du.c[1].y),
+          component(k.d.z, k.du.c[0].z, k.du.c[1].z)};
+}
+inline TVec3<Real> cosineHemisphere(const TVec2<Real>& u) noexcept {
+  return lifted(cosineHemisphere(Vec2{u.x, u.y}).d);
+}
+inline TVec3<Dual> cosineHemisphere(const TVec2<Dual>& u) noexcept {
+  return mapped(cosineHemisphere(Vec2{u.x.v, u.y.v}), u);
+}
+inline TVec3<Real> uniformCap(const TVec2<Real>& u, Real cosMax) noexcept {
+  return lifted(uniformCap(Vec2{u.x, u.y}, cosMax).d);
+}
+inline TVec3<Dual> uniformCap(const TVec2<Dual>& u, Real cosMax) noexcept {
+  return mapped(uniformCap(Vec2{u.x.v, u.y.v}, cosMax), u);
 }
 
 /// x s + y t + z n in a frame around n. The frame is Frame::around(n); as n moves it is carried

@@ -11,6 +11,7 @@
 #include <vestige/footprint/deltas.h>
 #include <vestige/light.h>
 #include <vestige/pigment.h>
+#include <vestige/receiver.h>
 #include <vestige/sampler.h>
 
 /// From a ray to radiance: the contract between an integrator plugin and the engine.
@@ -93,20 +94,20 @@ class SceneView {
   /// Of all this only the opacity, [0, 1], looked up at a point.
   virtual Real opacity(const Surface& surface) const noexcept = 0;
 
-  /// What the surface emits towards `from`; black if it is no light.
-  virtual Rgb emitted(const Surface& surface, Vec3 from) const noexcept = 0;
-  /// Density with which the light of this surface would have been sampled from `from`, 1/sr, chance
-  /// of choosing it included.
-  virtual Real lightPdf(const Surface& surface, Vec3 from) const noexcept = 0;
+  /// What the surface emits towards a receiver; black if it is no light.
+  virtual Rgb emitted(const Surface& surface, const Receiver& r) const noexcept = 0;
+  /// Density with which the light of this surface would have been sampled for a receiver, 1/sr,
+  /// chance of choosing it included.
+  virtual Real lightPdf(const Surface& surface, const Receiver& r) const noexcept = 0;
 
   virtual std::span<const Light* const> lights() const noexcept = 0;
   /// Chooses among them by power: for what starts at a light.
   virtual std::optional<LightChoice> chooseLight(Real u) const noexcept = 0;
   /// ... by what is likely to arrive at a point. Nullopt: nothing does from where u points. Lights
   /// that are not drawn have no chance.
-  virtual std::optional<LightChoice> chooseLight(Vec3 at, Real u) const noexcept = 0;
+  virtual std::optional<LightChoice> chooseLight(const Receiver& r, Real u) const noexcept = 0;
   /// Of that choice, [0,1].
-  virtual Real lightChance(int light, Vec3 at) const noexcept = 0;
+  virtual Real lightChance(int light, const Receiver& r) const noexcept = 0;
   /// Indices into lights() of those at infinity.
   virtual std::span<const int> infiniteLights() const noexcept = 0;
 
@@ -146,6 +147,12 @@ inline Ray shadowRay(const Surface& s, Vec3 toLight, Real distance) noexcept {
 /// Which quantity a path carries away from the sensor or the light: radiance is scaled by
 /// etaScale(), flux bends with the shading normal [Vea97 5.2, 5.3].
 enum class Carries { radiance, flux };
+
+/// The point of a surface as lights see it.
+inline Receiver receiverAt(const Surface& s, const Interaction& x, Real time = 0,
+                           int medium = -1) noexcept {
+  return {s.position, x.frame.n, time, medium};
+}
 
 /// One drawn continuation of a path, in world space.
 struct Scatter {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <vestige/receiver.h>
 #include <vestige/shape.h>
 #include <optional>
 
@@ -9,9 +10,8 @@
 ///   * Everything is in world space; a light applies Values::toWorld() when it is created.
 ///   * `toLight` is a unit vector from the looking point to the light.
 ///   * Two kinds: lights with a density, which a ray may hit by chance, and delta lights (point,
-///   spot,
-///     distant), which none can. For a delta light pdf is 1 and `radiance` is the irradiance that
-///     arrives across toLight, W/m^2.
+///     spot, distant), which none can. For a delta light pdf is 1 and `radiance` is the irradiance
+///     that arrives across toLight, W/m^2.
 ///   * Emission is looked up without footprint wherever two strategies of multiple importance
 ///     sampling must estimate the same integral.
 ///   * Methods are const, thread-safe and noexcept; they allocate nothing. "No sample" is an
@@ -41,7 +41,7 @@ struct LightSample {
 /// First derivatives of LightHit::toLight as sample() draws it.
 struct LightJacobian {
   Mat3x2 du;   ///< per unit of random number; zero for delta lights; |du.c0 x du.c1| pdf = 1
-  Mat3 dFrom;  ///< per scene unit of `from`; zero at infinity
+  Mat3 dFrom;  ///< per scene unit of the receiver's position; zero at infinity
 };
 
 /// Relative change of the light's factor in the contribution [PD01 3.2, MATH 1.14]: radiance times
@@ -49,7 +49,7 @@ struct LightJacobian {
 /// drawn by area, nothing where a direction was).
 struct LightLogGradient {
   Vec2 du;     ///< per unit of random number
-  Vec3 dFrom;  ///< per scene unit
+  Vec3 dFrom;  ///< per scene unit of the receiver's position
 };
 
 struct EmissionNumbers {
@@ -64,8 +64,8 @@ struct Particle {
   int variables = 4;  ///< how many of the numbers matter: 2 for point lights
 };
 
-/// Where a light is and where it shines: by this one of many is chosen that matters at a point. May
-/// say too much, never too little.
+/// Where a light is and where it shines, for choosing one of many lights at a point. Must be
+/// conservative: it may overestimate, never underestimate.
 struct LightExtent {
   Bounds box;            ///< world; empty: anywhere, then the light is chosen by its power alone
   Vec3 axis{0, 0, 1};    ///< unit, amid the normals (or axes) of its points
@@ -73,18 +73,27 @@ struct LightExtent {
   Real reach = kPi / 2;  ///< rad, from a normal to where nothing of its point arrives
 };
 
+/// What kind of light it is. The same for the whole life of the light.
+struct LightTraits {
+  bool isDelta = false;  ///< no ray meets it by chance
+  /// Seen by rays that leave the scene.
+  bool isInfinite = false;
+  /// Rays are drawn towards it (next-event estimation). False: it is left to the rays that
+  /// scattering draws, for light that comes evenly from all around. Delta lights are always drawn.
+  bool isDrawn = true;
+  /// eval() looks at LightHit::spread: paths then carry differentials for it.
+  bool usesSpread = false;
+};
+
+/// Four methods have no default: sample(), pdf(), eval() and power(). Bases that write more of
+/// them: PointSource and DistantSource (delta_light.h), AreaLight (area_light.h), DualLight
+/// (dual_light.h).
 class Light {
  public:
   virtual ~Light() = default;
 
-  virtual bool isDelta() const noexcept = 0;
-  /// Lights at infinity are asked for rays that leave the scene.
-  virtual bool isInfinite() const noexcept { return false; }
-
-  /// Whether rays are drawn towards it (next-event estimation). False: it is left to the rays that
-  /// scattering draws, which find it as well: light that comes evenly from all around. Delta
-  /// lights are drawn whatever they say.
-  virtual bool isDrawn() const noexcept { return true; }
+  /// By default: finite, and with a density.
+  virtual LightTraits traits() const noexcept { return {}; }
 
   /// The extent of the finite part of the scene, told once before rendering. [main thread]
   virtual void setScene(const Bounds&) {}
@@ -93,23 +102,25 @@ class Light {
   virtual const TriangleMesh* geometry() const noexcept { return nullptr; }
 
   /// A direction towards the light, for next-event estimation; nullopt where nothing arrives.
-  virtual std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept = 0;
+  virtual std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept = 0;
 
-  /// Density of sample() for this direction, 1/sr; 0 for delta lights.
-  virtual Real pdf(const LightHit& hit) const noexcept = 0;
+  /// Density of sample() for this direction, 1/sr; 0 for delta lights. hit.from is r.position.
+  virtual Real pdf(const Receiver& r, const LightHit& hit) const noexcept = 0;
 
   /// What arrives at hit.from, W/(m^2 sr); black for delta lights.
   virtual Rgb eval(const LightHit& hit) const noexcept = 0;
 
-  virtual LightJacobian sampleDerivatives(Vec3 from, Vec2 u) const noexcept = 0;
-  virtual LightLogGradient logGradient(Vec3 from, Vec2 u) const noexcept = 0;
+  /// By default: finite differences of sample(), and a note to the user.
+  virtual LightJacobian sampleDerivatives(const Receiver& r, Vec2 u) const noexcept;
+  /// By default: finite differences of sample(), and a note to the user. They take the light for
+  /// one whose points are drawn by area if it has a geometry().
+  virtual LightLogGradient logGradient(const Receiver& r, Vec2 u) const noexcept;
 
-  /// Starts a particle; nullopt: this light sends none (nothing lost).
-  virtual std::optional<Particle> emit(EmissionNumbers u) const noexcept = 0;
-  virtual RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept = 0;
-
-  /// Whether eval() looks at LightHit::spread: paths then carry differentials for it.
-  virtual bool usesSpread() const noexcept { return false; }
+  /// Starts a particle; nullopt: none for these numbers (nothing lost). By default the light sends
+  /// none at all: integrators that start at lights leave it out, and say so.
+  virtual std::optional<Particle> emit(EmissionNumbers) const noexcept { return std::nullopt; }
+  /// By default: finite differences of emit(), and a note to the user.
+  virtual RayJacobian emissionDerivatives(EmissionNumbers u) const noexcept;
 
   virtual LightExtent extent() const noexcept { return {}; }
 
@@ -118,3 +129,5 @@ class Light {
 };
 
 }  // namespace vestige
+
+#include <vestige/light_differences.h>  // the three defaults

@@ -44,14 +44,15 @@ template <int Lanes>
 [[gnu::noinline]] Rgb limitedDirectLight(PathContext& c, const Surface& s, const Interaction& x,
                                          std::uint32_t vertex, std::uint32_t index, Real samples,
                                          Real scattered, const PathFootprint<Lanes>& f) noexcept {
-  const TowardsLight towards = drawLight(c, s, vertex, index);
+  const Receiver receiver = receiverAt(s, x);
+  const TowardsLight towards = drawLight(c, receiver, vertex, index);
   if (!x.brdf || !towards.sample) return {};
   const LightHit& hit = towards.sample->hit;
   // The logarithm of f has no slope where f is 0.
   if (isBlack(evaluateScatter(x, hit.toLight).fCos) || isBlack(towards.sample->radiance)) return {};
   const PathFootprint<Lanes> connected =
-      f.connected(s, x, hit, towards.light->sampleDerivatives(hit.from, towards.u),
-                  towards.light->logGradient(hit.from, towards.u));
+      f.connected(s, x, hit, towards.light->sampleDerivatives(receiver, towards.u),
+                  towards.light->logGradient(receiver, towards.u));
   InputBuffer inputs;
   Interaction again;
   c.scene.shade(s, x.toPrev, connected.footprint(), inputs, again);

@@ -5,7 +5,7 @@
 //     EyePath path(context);
 //     while (walk(context, path, vertex, radiance)) {
 //       ... direct light; a continuation drawn with path.scatterNumbers(sampler) ...
-//       path.leave(vertex.s, scatter, 1);
+//       path.leave(vertex, scatter, 1);
 //       ++path.edge;
 //     }
 #pragma once
@@ -46,7 +46,7 @@ struct EyePath {
 
   EyePath() = default;
   explicit EyePath(PathContext& c) noexcept
-      : ray(c.ray), drawn{c.ray.origin}, stream{c.sampler.index()}, report(c) {}
+      : ray(c.ray), drawn{.from = {c.ray.origin}}, stream{c.sampler.index()}, report(c) {}
 
   /// Starts to carry a footprint, which must outlive the path.
   void carry(PathFootprint<>& f, const PathContext& c, const FootprintSettings& settings) noexcept {
@@ -83,13 +83,13 @@ struct EyePath {
             s.pair(dim + dimension::kDirection, stream.index)};
   }
 
-  /// Leaves a surface along a drawn ray, one of `siblings`.
-  void leave(const Surface& s, const Scatter& next, int siblings) noexcept {
+  /// Leaves a vertex along a drawn ray, one of `siblings`.
+  void leave(const Vertex& v, const Scatter& next, int siblings) noexcept {
     throughput *= next.weight;
     flux *= next.local.weight;
-    drawn.from = s.position;
+    drawn.from = receiverAt(v.s, v.x);
     drawn.density = next.local.specular ? kInfinity : Real(siblings) * next.local.pdf;
-    ray = spawnRay(s, next.toNext);
+    ray = spawnRay(v.s, next.toNext);
   }
 
   /// Russian roulette. False: the path ends.

@@ -66,8 +66,9 @@ void* create(const void* values, void* host, VestigeError* error) {
   }
 }
 
-/// Whether Class leaves a derivative to the default of its Interface: then the type of the member
-/// names the interface. A member that cannot be named here is one that Class hides: its own.
+/// Which methods Class leaves to the default of its Interface: then the type of the member names
+/// the interface. A member that cannot be named here is one that Class hides: its own. A base
+/// between the two may have a default of its own; it calls itself Class::Differences.
 template <class Interface, class Class>
 constexpr std::uint32_t lacks() {
   std::uint32_t bits = 0;
@@ -81,6 +82,31 @@ constexpr std::uint32_t lacks() {
                                           decltype(&Interface::logGradient)>;
                 })
     bits |= kLacksLogGradient;
+  if constexpr (requires {
+                  requires std::is_same_v<decltype(&Class::logIntensityGradient),
+                                          decltype(&Class::Differences::logIntensityGradient)>;
+                })
+    bits |= kLacksLogGradient;
+  if constexpr (requires {
+                  requires std::is_same_v<decltype(&Class::logRadianceGradient),
+                                          decltype(&Class::Differences::logRadianceGradient)>;
+                })
+    bits |= kLacksLogGradient;
+  if constexpr (requires {
+                  requires std::is_same_v<decltype(&Class::emit), decltype(&Interface::emit)>;
+                })
+    bits |= kLacksEmission;
+  else if constexpr (requires {
+                       requires std::is_same_v<decltype(&Class::emissionDerivatives),
+                                               decltype(&Interface::emissionDerivatives)>;
+                     })
+    bits |= kLacksEmissionDerivatives;
+  // A camera's: other interfaces have no default.
+  if constexpr (requires {
+                  requires std::is_same_v<decltype(&Class::pdf),
+                                          Real (Interface::*)(Vec3, Vec3, Real) const noexcept>;
+                })
+    bits |= kLacksPdf;
   return bits;
 }
 

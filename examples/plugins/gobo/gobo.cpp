@@ -6,14 +6,12 @@
 // The slide stands one unit in front of the point, 2 tan(angle / 2) wide. Particles start evenly
 // over the slide, so with density 1 / (area cos^3 a) per steradian. logGradient() has the picture's
 // slope between two texels, but not the edges of the slide, where a derivative would say nothing.
-#include <vestige/light.h>
-#include <vestige/plugin.h>
-#include <vestige/words.h>
+#include <vestige/delta_light.h>
 
 namespace vestige {
 namespace {
 
-class Gobo final : public Light {
+class Gobo final : public PointSource {
  public:
   enum Row { kSlide, kLocation, kPointAt, kSky, kAngle, kIntensity };
 
@@ -30,64 +28,29 @@ class Gobo final : public Light {
                    rgb("intensity", 1).range(0, 1e12).in("W/sr").doc("where the slide is white")}};
   }
 
-  Gobo(const Values& values, Host& host)
-      : location_(values.toWorld().point(values.vec3(kLocation))),
-        intensity_(values.rgb(kIntensity)) {
-    std::string error;
-    slide_ = host.texture({.file = values.text(kSlide),
-                           .span = values.span(kSlide),
-                           .colourSpace = "",
-                           .wrapU = Wrap::clamp,
-                           .wrapV = Wrap::clamp},
-                          error);
-    if (!slide_) throw PluginError(kSlide, error);
-    frame_.n = normalize(values.toWorld().point(values.vec3(kPointAt)) - location_);
-    if (lengthSquared(frame_.n) == 0)
-      throw PluginError(kPointAt, "point_at is the light's own location: expected another point");
-    const Vec3 right = cross(values.toWorld().vector(values.vec3(kSky)), frame_.n);
-    if (!(lengthSquared(right) > 0))
-      throw PluginError(kSky, "sky " + words(values.vec3(kSky)) + " lies along the beam");
-    frame_.s = normalize(right), frame_.t = cross(frame_.n, frame_.s);
-    halfWidth_ = std::tan(radians(values.real(kAngle)) / 2);
-    halfHeight_ = halfWidth_ * Real(slide_->height()) / Real(slide_->width());
+  Gobo(const Values& values, Host& host) : Gobo(values, slideOf(values, host)) {}
+
+  /// Black beside the slide and behind the lamp.
+  Rgb intensity(Vec3 d) const noexcept override {
+    if (!(d.z > 0)) return {};
+    const Vec2 uv = onPicture(d);
+    if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};
+    const Rgba c = lookup(uv);
+    return intensity_ * c.alpha * c.colour;
   }
 
-  bool isDelta() const noexcept override { return true; }
-
-  std::optional<LightSample> sample(Vec3 from, Vec2) const noexcept override {
-    const Vec3 way = location_ - from, toLight = normalize(way);
-    const Real d2 = lengthSquared(way);
-    if (!(d2 > 0)) return std::nullopt;
-    const Rgb thrown = intensity(frame_.toLocal(-toLight));
-    if (isBlack(thrown)) return std::nullopt;
-    return LightSample{{from, toLight, std::sqrt(d2), location_, {}, {}}, thrown / d2, 1};
-  }
-
-  Real pdf(const LightHit&) const noexcept override { return 0; }
-  Rgb eval(const LightHit&) const noexcept override { return {}; }
-
-  LightJacobian sampleDerivatives(Vec3 from, Vec2) const noexcept override {
-    const Vec3 way = location_ - from;
-    return {.du = {}, .dFrom = (-1 / length(way)) * projection(normalize(way))};
-  }
-
-  LightLogGradient logGradient(Vec3 from, Vec2) const noexcept override {
-    const Vec3 way = location_ - from, d = frame_.toLocal(-way);
-    LightLogGradient g = {{}, 2 / lengthSquared(way) * way};
-    const Real here = luminance(intensity(d));
-    if (!(here > 0)) return g;
+  Vec3 logIntensityGradient(Vec3 d) const noexcept override {
     const Vec2 uv = onPicture(d);
     const Vec3 du = Vec3{1, 0, -d.x / d.z} / (2 * halfWidth_ * d.z);
     const Vec3 dv = Vec3{0, 1, -d.y / d.z} / (2 * halfHeight_ * d.z);
-    g.dFrom += frame_.toWorld((slope(uv, 0) * du + slope(uv, 1) * dv) / here);
-    return g;
+    return (slope(uv, 0) * du + slope(uv, 1) * dv) / luminance(intensity(d));
   }
 
   std::optional<Particle> emit(EmissionNumbers u) const noexcept override {
-    const Vec3 d = onSlide(u.direction), direction = normalize(d);
+    const Vec3 direction = normalize(onSlide(u.direction));
     const Real cosine = direction.z, area = 4 * halfWidth_ * halfHeight_;
-    return Particle{.origin = location_,
-                    .direction = frame_.toWorld(direction),
+    return Particle{.origin = location(),
+                    .direction = frame().toWorld(direction),
                     .normal = {},
                     .power = area * cosine * cosine * cosine * intensity(direction),
                     .variables = 2};
@@ -97,13 +60,8 @@ class Gobo final : public Light {
     const Vec3 d = onSlide(u.direction);
     const Mat3 across = (1 / length(d)) * projection(normalize(d));
     return {.dOrigin = {},
-            .dDirection = {Vec3{}, Vec3{}, frame_.toWorld(across * Vec3{2 * halfWidth_, 0, 0}),
-                           frame_.toWorld(across * Vec3{0, 2 * halfHeight_, 0})}};
-  }
-
-  LightExtent extent() const noexcept override {
-    const Real corner = std::atan(std::hypot(halfWidth_, halfHeight_));
-    return {{location_, location_}, frame_.n, 0, corner};
+            .dDirection = {Vec3{}, Vec3{}, frame().toWorld(across * Vec3{2 * halfWidth_, 0, 0}),
+                           frame().toWorld(across * Vec3{0, 2 * halfHeight_, 0})}};
   }
 
   /// As if the picture were even: solid angle of the slide times its mean.
@@ -114,6 +72,41 @@ class Gobo final : public Light {
   }
 
  private:
+  Gobo(const Values& values, std::shared_ptr<const Texture> slide)
+      : Gobo(values, slide, std::tan(radians(values.real(kAngle)) / 2)) {}
+  Gobo(const Values& values, std::shared_ptr<const Texture> slide, Real halfWidth)
+      : PointSource(beam(values), cosCorner(*slide, halfWidth)),
+        intensity_(values.rgb(kIntensity)),
+        slide_(std::move(slide)),
+        halfWidth_(halfWidth),
+        halfHeight_(halfWidth * Real(slide_->height()) / Real(slide_->width())) {}
+
+  static std::shared_ptr<const Texture> slideOf(const Values& values, Host& host) {
+    std::string error;
+    auto slide = host.texture({.file = values.text(kSlide),
+                               .span = values.span(kSlide),
+                               .colourSpace = "",
+                               .wrapU = Wrap::clamp,
+                               .wrapV = Wrap::clamp},
+                              error);
+    if (!slide) throw PluginError(kSlide, error);
+    return slide;
+  }
+  /// s to the right of the picture, t up, n along the beam.
+  static Aim beam(const Values& values) {
+    Aim a = aim(values, kLocation, kPointAt);
+    const Vec3 right = cross(values.toWorld().vector(values.vec3(kSky)), a.frame.n);
+    if (!(lengthSquared(right) > 0))
+      throw PluginError(kSky, "sky " + words(values.vec3(kSky)) + " lies along the beam");
+    a.frame.s = normalize(right);
+    a.frame.t = cross(a.frame.n, a.frame.s);
+    return a;
+  }
+  static Real cosCorner(const Texture& slide, Real halfWidth) {
+    const Real height = Real(slide.height()) / Real(slide.width());
+    return 1 / std::sqrt(1 + sqr(halfWidth) * (1 + sqr(height)));
+  }
+
   /// A point of the slide by numbers in the unit square; v upwards, as in a texture.
   Vec3 onSlide(Vec2 u) const noexcept {
     return {halfWidth_ * (2 * u.x - 1), halfHeight_ * (2 * u.y - 1), 1};
@@ -125,14 +118,6 @@ class Gobo final : public Light {
   Rgba lookup(Vec2 uv) const noexcept {
     const Vec2 point[2] = {};
     return slide_->lookup(uv, point);
-  }
-  /// W/sr in a direction of the lamp's own frame; black beside the slide and behind the lamp.
-  Rgb intensity(Vec3 d) const noexcept {
-    if (!(d.z > 0)) return {};
-    const Vec2 uv = onPicture(d);
-    if (!(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1)) return {};
-    const Rgba c = lookup(uv);
-    return intensity_ * c.alpha * c.colour;
   }
   /// Of the intensity's luminance by u (axis 0) or v (1): between the centres of two texels a
   /// lookup is straight in colour and in alpha.
@@ -147,10 +132,8 @@ class Gobo final : public Light {
     return luminance(intensity_ * rise) * n;
   }
 
-  Vec3 location_;
   Rgb intensity_;
   std::shared_ptr<const Texture> slide_;
-  Frame frame_;                  ///< s to the right of the picture, t up, n along the beam; world
   Real halfWidth_, halfHeight_;  ///< of the slide, at distance 1
 };
 

@@ -68,7 +68,7 @@ std::vector<bool> mattObjects(const SceneView& scene) {
 
 bool hasInfiniteLight(const SceneView& scene) noexcept {
   return std::any_of(scene.lights().begin(), scene.lights().end(),
-                     [](const Light* l) { return l->isInfinite(); });
+                     [](const Light* l) { return l->traits().isInfinite; });
 }
 
 }  // namespace

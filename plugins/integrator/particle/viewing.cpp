@@ -79,7 +79,7 @@ bool Viewing::scatter(Path& p) const noexcept {
     return false;
   }
   p.report.scatter(v.s, v.x.toPrev, p.throughput, *next, p.footprint);
-  p.leave(v.s, *next, 1);
+  p.leave(v, *next, 1);
   if (p.footprint) p.footprint->scatter(v.s, v.x, *next, numbers);
   p.report.left(p.footprint);
   if (p.edge < kRouletteFrom || p.survives(p.number(c.sampler, dimension::kRoulette))) return true;
