@@ -42,11 +42,11 @@ Vec3 bent(Vec3 n, Vec3 toPrev) noexcept {
 
 Rgba PlacedPigment::eval(const SurfacePoint& at, const Footprint& footprint) const noexcept {
   Lookup lookup;
-  lookup.position = fromWorld.point(at.position);
+  lookup.position = fromScene.point(at.position);
   const Vec3 uv = fromUv.point({at.uv.x, at.uv.y, 0});
   lookup.uv = {uv.x, uv.y};
   for (const int i : {0, 1}) {
-    lookup.footprint.dP[i] = fromWorld.vector(footprint.dP[i]);
+    lookup.footprint.dP[i] = fromScene.vector(footprint.dP[i]);
     lookup.footprint.dUv[i] = linearUv(fromUv, footprint.dUv[i]);
   }
   lookup.footprint.alongMajor = footprint.alongMajor;

@@ -13,7 +13,7 @@ namespace vestige {
 /// A pigment at its place in the scene.
 struct PlacedPigment {
   std::shared_ptr<const Pigment> pigment;
-  Affine fromWorld;  ///< undoes all transforms: for positions
+  Affine fromScene;  ///< undoes all transforms: takes positions that SceneView gives
   Affine fromUv;     ///< undoes the pigment's own: for uv
   /// The pigment at a point of a surface, averaged over a footprint (world space, uv).
   Rgba eval(const SurfacePoint& at, const Footprint& footprint) const noexcept;

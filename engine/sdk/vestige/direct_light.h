@@ -73,7 +73,7 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
   const Rgb f = evalScatter(x, drawn.hit.toLight);
   if (isBlack(f) || isBlack(drawn.radiance)) return {};
   ++c.counters.shadowRays;
-  const Real visible = c.scene.transmittance(shadowRay(s, drawn.hit.toLight, drawn.hit.distance));
+  const Real visible = c.scene.transmittance(shadowRay(s, drawn.hit));
   if (visible == 0) return {};
   const Real density = towards.chance * drawn.pdf;
   const Real weight =
