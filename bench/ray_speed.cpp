@@ -78,6 +78,7 @@ class Recorder final : public SceneView {
   bool usesFootprint(const Surface& s) const noexcept override { return s_.usesFootprint(s); }
   Vec2 texels(const Surface& s) const noexcept override { return s_.texels(s); }
   Bounds bounds() const noexcept override { return s_.bounds(); }
+  Vec3 middle() const noexcept override { return s_.middle(); }
   std::span<const Patch> patches() const noexcept override { return s_.patches(); }
   SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept override {
     return s_.patchPoint(patch, uv);

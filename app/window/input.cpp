@@ -290,7 +290,8 @@ void Window::focusAt(double x, double y) {
   keepForUndo();
   // The direction of view stays; what lies across it comes to the distance of the point.
   const Vec3 forward = normalize(view->lookAt - view->location);
-  const Real depth = dot(hit.position - view->location, forward);
+  const Vec3 point = hit.position + snapshot_->open->scene().view().middle();
+  const Real depth = dot(point - view->location, forward);
   if (!(depth > 0)) return;
   Block next = withView(*block, cameraSchema(),
                         {view->location, view->location + depth * forward, view->sky});

@@ -11,6 +11,11 @@
 namespace vestige {
 namespace {
 
+/// Largest coordinate.
+Real reachOf(const Bounds& b) noexcept {
+  return b.isEmpty() ? 0 : std::max(maxAbsComponent(b.low), maxAbsComponent(b.high));
+}
+
 /// An analytic shape: by the angle that it fills where the shape can and the placement keeps
 /// angles, else by area in the shape's own space.
 class AnalyticLight final : public SurfaceLight {
@@ -29,6 +34,8 @@ class AnalyticLight final : public SurfaceLight {
         isFlat_ = isFlat_ && dot(normal, axis_) > Real(0.9999);
       }
     area_ = Real(sum / (n * n));
+    // A ray is rounded when it enters the shape's own space.
+    offset_ = kRayError * place_.norm * reachOf(shape_->bounds());
   }
 
   std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override {
@@ -133,8 +140,15 @@ class MeshLight final : public SurfaceLight {
         triangles_(*p.mesh, p.toWorld) {
     sums_.reserve(triangles_.size());
     double sum = 0;
-    for (std::uint32_t k = 0; k < triangles_.size(); ++k)
+    Real edge = 0;
+    for (std::uint32_t k = 0; k < triangles_.size(); ++k) {
       sums_.push_back(sum += double(triangles_.area(k)));
+      const Triangles::Edges e = triangles_.edges(k);
+      edge = std::max({edge, maxAbsComponent(e.ab), maxAbsComponent(e.ac)});
+    }
+    // As World has it for an instance, which the mesh may be.
+    const Place place(p.toWorld);
+    offset_ = kRayError * (edge + place.condition * (reachOf(triangles_.bounds()) + place.shift));
   }
 
  private:

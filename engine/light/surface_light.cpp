@@ -9,7 +9,8 @@ namespace vestige {
 
 LightSample SurfaceLight::seen(Vec3 from, const SurfacePoint& p, Vec3 toLight, Real distance,
                                Real pdf) const {
-  const LightHit hit{from, toLight, distance, p.position, p.geometricNormal, p.uv};
+  LightHit hit{from, toLight, distance, p.position, p.geometricNormal, p.uv};
+  hit.offset = offset_;
   return {hit, radiance_(p), pdf};
 }
 

@@ -46,6 +46,8 @@ class SurfaceLight : public Light {
   /// pigment has no derivative of its own. 0 where it is even, or black.
   Real radianceSlope(const SurfacePoint& p, Vec3 dP) const noexcept;
 
+  Real offset_ = 0;  ///< LightHit::offset of all samples
+
  private:
   /// The side a particle leaves by, and what is left of the number that chose it.
   struct Side {

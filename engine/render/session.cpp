@@ -97,7 +97,9 @@ void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& co
                       .counters = counters,
                       .aovs = &aovs,
                       .wantsFootprint = job.wantsFootprint};
-  job.film.add(x, y, start->ray.weight * job.integrator.estimate(context), aovs, counters);
+  const Rgb radiance = start->ray.weight * job.integrator.estimate(context);
+  if (aovs.depth > 0) aovs.position += job.scene.middle();
+  job.film.add(x, y, radiance, aovs, counters);
 }
 
 /// Calls `visit(x, y)` for each pixel of a tile that wants samples, until it says false.

@@ -6,6 +6,7 @@
 
 #include "engine/light/shape_light.h"
 #include "engine/scene/engine_schemas.h"
+#include "engine/scene/middle.h"
 
 namespace vestige {
 namespace {
@@ -72,6 +73,8 @@ SceneBuilder::SceneBuilder(Scene& scene, const SceneDesc& description, const Reg
 bool SceneBuilder::build() {
   impl_.hash = description_.hash;
   impl_.textures->setBudget(options_.textureMemory);
+  for (const Block& block : description_.blocks) prepareShapes(block);
+  impl_.origin = findMiddle();
   for (const Block& block : description_.blocks) addTop(block);
   addCamera();
   addIntegrator();
@@ -114,8 +117,8 @@ std::shared_ptr<Interface> SceneBuilder::create(const Block& block) {
   const std::vector<Value> values = valuesFor(rows, block);
   host_.setPlace(at(block.span));
   VestigeError why{"", -1};
-  auto made = registry_.create<Interface>(block.kind, block.plugin, Values(values, block.world),
-                                          host_, why);
+  auto made = registry_.create<Interface>(block.kind, block.plugin,
+                                          Values(values, traced(block.world)), host_, why);
   if (!made) {
     Span span = at(block.span);
     if (why.input >= 0 && why.input < int(values.size()) && values[why.input].span.file >= 0)
@@ -189,6 +192,55 @@ void SceneBuilder::fillCache() {
   cache.world_ = impl_.world.body();
 }
 
+void SceneBuilder::prepareShapes(const Block& block) {
+  if (block.kind == "union")
+    for (const Block& part : block.children) prepareShapes(part);
+  if (block.kind != "shape") return;
+  place_ = block.span;
+  const bool isSound = isInvertible(block.world, block.span);
+  prepared_[&block] = isSound ? shapeFor(block) : nullptr;
+}
+
+// ---------------------------------------------------------------- the space it is traced in
+/// Shapes say where a scene stands; where all of them are endless, lamps and the camera do.
+Vec3 SceneBuilder::findMiddle() {
+  Bounds extent;
+  const auto add = [&](const Bounds& b) {
+    if (!b.isInfinite()) extent.add(b);
+  };
+  for (const auto& [block, shape] : prepared_)
+    if (shape) add(boundsIn(*shape, block->world));
+  if (!extent.isEmpty()) return middleOf(extent);
+  for (const Block& block : description_.blocks)
+    if (block.kind == "light")
+      if (const auto light = tryOut<Light>(block)) add(light->extent().box);
+  if (const Block* block = description_.last("camera"))
+    if (const auto camera = tryOut<Camera>(*block))
+      if (const auto ray = camera->sample({{Real(0.5), Real(0.5)}, {Real(0.5), Real(0.5)}, 1}))
+        extent.add(ray->origin);
+  return middleOf(extent);
+}
+
+/// Created in world space to see where it stands, without a word to the user: it is created again,
+/// where it is placed. Null as well where that would read files or make other plugins.
+template <class Interface>
+std::shared_ptr<Interface> SceneBuilder::tryOut(const Block& block) const {
+  const Plugin* plugin = registry_.find(block.kind, block.plugin);
+  if (!plugin) return nullptr;
+  const std::vector<Value> values = valuesFor(plugin->schema->params, block);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (values[i].kind == Value::Kind::block ||
+        (plugin->schema->params[i].type == ValueType::file && !values[i].text.empty()))
+      return nullptr;
+  Diagnostics unheard;
+  SceneHost host(description_, *impl_.textures, unheard, nullptr, nullptr);
+  VestigeError why{"", -1};
+  return registry_.create<Interface>(block.kind, block.plugin, Values(values, block.world), host,
+                                     why);
+}
+
+Affine SceneBuilder::traced(const Affine& toWorld) const { return around(impl_.origin, toWorld); }
+
 void SceneBuilder::addShape(const Block& block, const Block* outerBrdf) {
   place_ = block.span;
   // A brdf outside of a union is for the parts that have none of their own.
@@ -198,12 +250,11 @@ void SceneBuilder::addShape(const Block& block, const Block* outerBrdf) {
       if (part.kind == "shape" || part.kind == "union") addShape(part, brdf);
     return;
   }
-  if (!isInvertible(block.world, block.span)) return;
-  const std::shared_ptr<const Shape> shape = shapeFor(block);
+  const std::shared_ptr<const Shape> shape = prepared_.at(&block);
   if (!shape) return;
   if (shape->parts()) return addMeshParts(block, shape, brdf);
   Placement p;
-  p.shape = shape, p.toWorld = block.world, p.closed = shape->isClosed();
+  p.shape = shape, p.toWorld = traced(block.world), p.closed = shape->isClosed();
   const Value* sides = block.find(kEmissionSides);
   place(p, brdf, block.find(kEmission), sides && sides->text == "both", block);
 }
@@ -213,7 +264,8 @@ void SceneBuilder::addMeshParts(const Block& block, const std::shared_ptr<const 
   const Value* sides = block.find(kEmissionSides);
   for (const MeshPart& part : *shape->parts()) {
     Placement p;
-    p.shape = shape, p.mesh = &part.mesh, p.toWorld = block.world, p.closed = shape->isClosed();
+    p.shape = shape, p.mesh = &part.mesh, p.toWorld = traced(block.world),
+    p.closed = shape->isClosed();
     const Value* emission = block.find(kEmission);
     if (!emission && part.emission.kind != Value::Kind::none) emission = &part.emission;
     place(p, brdf ? brdf : part.brdf.get(), emission, sides && sides->text == "both", block);
@@ -274,7 +326,7 @@ std::optional<PlacedPigment> SceneBuilder::pigment(const Block& block, const Aff
   if (!isInvertible(world, at(block.span))) return std::nullopt;
   const std::shared_ptr<const Pigment> made = create<Pigment>(block);
   if (!made) return std::nullopt;
-  return PlacedPigment{made, world.inverse(), block.own.inverse()};
+  return PlacedPigment{made, traced(world).inverse(), block.own.inverse()};
 }
 
 void SceneBuilder::addInputs(const Block& block, bool isNested) {

@@ -33,6 +33,14 @@ class SceneBuilder {
   std::shared_ptr<Interface> create(const Block& block);
   bool known(const Block& block);
 
+  /// Creates the shapes of a block, which addShape() then places: where the scene stands must be
+  /// known before anything is placed.
+  void prepareShapes(const Block& block);
+  Vec3 findMiddle();
+  template <class Interface>
+  std::shared_ptr<Interface> tryOut(const Block& block) const;
+  /// A transform to world space, into the space that is traced in.
+  Affine traced(const Affine& toWorld) const;
   void addTop(const Block& block);
   void addShape(const Block& block, const Block* outerBrdf);
   void addMeshParts(const Block& block, const std::shared_ptr<const Shape>& shape,
@@ -80,6 +88,7 @@ class SceneBuilder {
   std::vector<InputRow> inputs_;  ///< of the material being made
   int firstInput_ = -1;           ///< of the BRDF being created; -1: no material is being made
   std::map<std::string, BuildCache::KeptShape> shapes_;
+  std::map<const Block*, std::shared_ptr<const Shape>> prepared_;  ///< null: was refused
   BuildCache::Use use_;
 };
 

@@ -45,11 +45,11 @@ Vec3 bent(Vec3 n, Vec3 toPrev) noexcept {
 
 Lookup PlacedPigment::inside(const Lookup& outside) const noexcept {
   Lookup lookup;
-  lookup.position = fromWorld.point(outside.position);
+  lookup.position = fromScene.point(outside.position);
   const Vec3 uv = fromUv.point({outside.uv.x, outside.uv.y, 0});
   lookup.uv = {uv.x, uv.y};
   for (const int i : {0, 1}) {
-    lookup.footprint.dP[i] = fromWorld.vector(outside.footprint.dP[i]);
+    lookup.footprint.dP[i] = fromScene.vector(outside.footprint.dP[i]);
     lookup.footprint.dUv[i] = linearUv(fromUv, outside.footprint.dUv[i]);
   }
   lookup.footprint.alongMajor = outside.footprint.alongMajor;

@@ -13,11 +13,11 @@ namespace vestige {
 /// A pigment at its place in the scene.
 struct PlacedPigment {
   std::shared_ptr<const Pigment> pigment;
-  Affine fromWorld;  ///< undoes all transforms: for positions
+  Affine fromScene;  ///< undoes all transforms: takes positions that SceneView gives
   Affine fromUv;     ///< undoes the pigment's own: for uv
   /// The pigment at a point of a surface, averaged over a footprint (world space, uv).
   Rgba eval(const SurfacePoint& at, const Footprint& footprint) const noexcept;
-  /// The same from a lookup in the space that `fromWorld` and `fromUv` lead out of.
+  /// The same from a lookup in the space that `fromScene` and `fromUv` lead out of.
   Rgba eval(const Lookup& outside) const noexcept { return pigment->eval(inside(outside)); }
   Lookup inside(const Lookup& outside) const noexcept;
   /// Texels that a unit of the surface's uv spans.

@@ -30,6 +30,7 @@ struct Scene::Impl final : SceneView {
   FilmSettings film;
   std::uint64_t hash = 0;
   bool hasTextures = false;
+  Vec3 origin;  ///< SceneView::middle()
 
   /// After everything was added: builds the tree, see World::commit(), and the table of lights.
   void commit(const std::shared_ptr<const World::Body>& before);
@@ -62,6 +63,7 @@ struct Scene::Impl final : SceneView {
   bool usesFootprint(const Surface& s) const noexcept override { return material(s).usesFootprint; }
   Vec2 texels(const Surface& s) const noexcept override { return material(s).texels(); }
   Bounds bounds() const noexcept override { return world.bounds(); }
+  Vec3 middle() const noexcept override { return origin; }
   std::span<const Patch> patches() const noexcept override { return world.patches(); }
   SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept override {
     return world.patchPoint(patch, uv);

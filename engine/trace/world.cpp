@@ -13,6 +13,10 @@ namespace {
 /// Rounding steps between a surface and the start of a ray that leaves it: of its position in the
 /// object, in the world, of the ray's origin, each sqrt(3) halves of an epsilon at most.
 constexpr Real kSteps = 4;
+/// Shapes compute in double with lengths up to their own size. What is left near a point of small
+/// coordinates, as on a large ball that touches the origin: a difference of squares, 8 epsilon of
+/// the size squared over twice the size, with room for a root that was searched for.
+constexpr Real kInside = 32 * Real(std::numeric_limits<double>::epsilon());
 /// Triangles are met in float, whatever Real is.
 constexpr Real kFloat = std::numeric_limits<float>::epsilon();
 
@@ -39,8 +43,10 @@ Real triangleOffset(const Item& item, const SurfacePoint& s, Real extent) noexce
 
 Real shapeOffset(const Item& item, Vec3 object, Vec3 world) noexcept {
   constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
-  return kSteps * epsilon *
-         std::max(maxAbsComponent(world), item.place.norm * maxAbsComponent(object));
+  const Real rounding = kSteps * epsilon *
+                        std::max(maxAbsComponent(world), item.place.norm * maxAbsComponent(object));
+  const bool isEndless = item.bounds.isInfinite();
+  return rounding + (isEndless ? Real(0) : kInside * maxAbsComponent(item.bounds.size()));
 }
 
 // By bits: what is taken over must be what would be made, and -0 is not 0.

@@ -49,6 +49,7 @@ class Area final : public Light {
     // A transform that mirrors takes the shining side along.
     const bool mirrored = values.toWorld().determinant() < 0;
     normal_ = (mirrored ? Real(-1) : Real(1)) * across / area_;
+    offset_ = kRayError * std::max(maxAbsComponent(edge_.c[0]), maxAbsComponent(edge_.c[1]));
     mesh_.positions = {corner_, at({1, 0}), at({1, 1}), at({0, 1})};
     mesh_.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     mesh_.triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -62,6 +63,7 @@ class Area final : public Light {
     const Real distance = length(way);
     std::optional<LightSample> s(std::in_place);
     s->hit = {r.position, way / distance, distance, position, normal_, u};
+    s->hit.offset = offset_;
     s->radiance = radiance_;
     s->pdf = pdf(r, s->hit);
     if (!(s->pdf > 0) || !std::isfinite(s->pdf)) s.reset();
@@ -147,6 +149,7 @@ class Area final : public Light {
   bool twoSided_;
   Vec3 normal_;  ///< unit, the shining side's
   Real area_;    ///< world, scene units squared
+  Real offset_;  ///< LightHit::offset
   TriangleMesh mesh_;
 };
 

@@ -143,6 +143,51 @@ TEST_CASE("a ray that leaves a large floor does not meet it again", "[world]") {
   }
 }
 
+TEST_CASE("a lamp does not shadow itself, however flat its light falls", "[world]") {
+  const auto disc = makeShape(
+      "disc", {{"centre", vec(0, 0, 0)}, {"normal", vec(0, -1, 0)}, {"radius", number(0.5)}});
+  const auto can = makeShape(
+      "cylinder", {{"base", vec(0, 0, 0)}, {"cap", vec(1, 0, 0)}, {"radius", number(0.3)}});
+  TriangleMesh sheet;
+  sheet.positions = {{-1, 0, -1}, {1, 0, -1}, {-1, 0, 1}, {1, 0, 1}};
+  sheet.triangles = {{0, 1, 2}, {1, 3, 2}};
+  const auto quad = std::make_shared<Holder>(sheet), solid = std::make_shared<Holder>(ball(5));
+  const auto floor = makeShape("plane", {{"normal", vec(0, 1, 0)}, {"distance", number(0)}});
+  for (const double far : {0.0, 1e2, 1e4}) {
+    const Affine there = move(far, 2 * far, -far), above = there * move(0, 1.2, 0);
+    for (const auto& lamp : std::vector<std::vector<Placement>>{
+             {placed(sphereShape({}, 1), above)},
+             {placed(sphereShape({Real(far), 0, 0}, 1), move(0, 1.2 + 2 * far, -far))},
+             {placed(disc, above)},
+             {placed(can, above * turn({0, 1, 0}, 0.7))},
+             {placed(quad, above)},
+             {placed(solid, above)},
+             {placed(solid, above), placed(solid, above * move(0, 4, 0) * turn({1, 2, 3}, 1))}}) {
+      std::vector<Placement> all = lamp;
+      all.push_back(placed(floor, there));
+      const World world = worldOf(all);
+      const auto light = makeShapeLight(
+          lamp[0], [](const SurfacePoint&) { return grey(1); }, false, grey(1));
+      Random random(3);
+      int drawn = 0, dark = 0;
+      for (int k = 0; k < 20000; ++k) {
+        const double r = std::pow(10, random.between(0.3, 2.3)), a = random.between(0, 6.28);
+        const Vec3 at = there.point({Real(r * std::cos(a)), Real(0.5), Real(r * std::sin(a))});
+        const auto s = world.intersect({at, {0, -1, 0}, 0, kInfinity});
+        if (!s) continue;
+        const Real u = Real(random.between(0, 1)), v = Real(random.between(0, 1));
+        const auto sample = light->sample(s->position, {u, v});
+        if (!sample || sample->hit.toLight.y <= 0) continue;
+        ++drawn;
+        dark += world.transmittance(shadowRay(*s, sample->hit), half, nullptr) < 1;
+      }
+      INFO("lamp " << lamp[0].shape.get() << ", " << lamp.size() << " of them, " << far << " away");
+      CHECK(drawn > 1000);
+      CHECK(dark == 0);
+    }
+  }
+}
+
 TEST_CASE("what floats a thousandth above a surface stays apart from it", "[world]") {
   TriangleMesh sheet;
   sheet.positions = {{5, 9, 5}, {15, 9, 5}, {5, 9, 15}};

@@ -85,7 +85,7 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
   const ScatterValue value = evaluateScatter(x, drawn.hit.toLight);
   if (isBlack(value.fCos) || isBlack(drawn.radiance)) return {};
   ++c.counters.shadowRays;
-  const Real visible = c.scene.transmittance(shadowRay(s, drawn.hit.toLight, drawn.hit.distance));
+  const Real visible = c.scene.transmittance(shadowRay(s, drawn.hit));
   if (visible == 0) return {};
   const Real density = towards.chance * drawn.pdf;
   const Real weight =

@@ -122,6 +122,12 @@ class SceneView {
   /// Extent of everything finite.
   virtual Bounds bounds() const noexcept = 0;
 
+  /// Where the origin of the space that everything here, cameras and lights included, is given in
+  /// stands in the scene's own coordinates: position + middle() is what the scene's author knows,
+  /// for people and files. Zero where the scene stands around its origin; else near the scene, so
+  /// that positions keep their digits far from the origin. Directions and lengths are the same.
+  virtual Vec3 middle() const noexcept { return {}; }
+
   /// All surfaces as patches with true areas.
   virtual std::span<const Patch> patches() const noexcept = 0;
   /// The surface of a patch at patchUv, world.
@@ -136,10 +142,24 @@ inline Ray spawnRay(const Surface& s, Vec3 direction) noexcept {
   const Real side = dot(direction, s.geometricNormal) < 0 ? Real(-1) : Real(1);
   return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity};
 }
-/// The same, ending just before a light at a distance.
-inline Ray shadowRay(const Surface& s, Vec3 toLight, Real distance) noexcept {
-  Ray r = spawnRay(s, toLight);
-  // A light does not shadow itself.
+/// From a surface to a point of a light. Both ends move off their surfaces, and the ray runs
+/// between the moved points: so neither surface hides the other, however flat the ray meets them.
+inline Ray shadowRay(const Surface& s, const LightHit& light) noexcept {
+  const Ray r = spawnRay(s, light.toLight);
+  if (!std::isfinite(light.distance)) return r;
+  const Real off = light.offset + kRayError * (light.distance + maxAbsComponent(light.position));
+  // A point without a surface moves back along the ray.
+  const Real cosine = dot(light.normal, light.toLight);
+  const Vec3 away = cosine < 0 ? light.normal : cosine > 0 ? -light.normal : -light.toLight;
+  const Vec3 way = light.position + off * away - r.origin;
+  const Real distance = length(way);
+  if (!(distance > 0)) return {r.origin, light.toLight, 0, 0};
+  return {r.origin, way / distance, 0, distance * (1 - kRayError)};
+}
+/// From a surface to a distance at which there is no light, as for ambient occlusion: the ray ends
+/// a little before it.
+inline Ray shadowRay(const Surface& s, Vec3 direction, Real distance) noexcept {
+  Ray r = spawnRay(s, direction);
   if (std::isfinite(distance)) r.tMax = distance - 2 * s.offset - distance * Real(1e-5);
   return r;
 }

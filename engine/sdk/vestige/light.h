@@ -19,6 +19,11 @@
 ///     value.
 namespace vestige {
 
+/// Error of a ray's meeting with a surface per unit of its length, in float, whatever Real is:
+/// sqrt(3)/2 epsilon from rounding its direction, the same from the vectors between its origin and
+/// the surface, and two epsilon from their products.
+inline constexpr Real kRayError = 4 * std::numeric_limits<float>::epsilon();
+
 /// A point of a light as seen from somewhere.
 struct LightHit {
   Vec3 from;
@@ -30,6 +35,10 @@ struct LightHit {
   /// How toLight moves over the footprint of a path that nothing was drawn against: lights at
   /// infinity may average over it. Zero: a point.
   Vec3 spread[2] = {};
+  /// How far off its surface a shadow ray ends at least, scene units: kRayError times the longest
+  /// edge or radius of the surface. shadowRay() adds the part of the error that grows with the
+  /// distance and with `position`, so 0 is safe for a light that is not much larger than both.
+  Real offset = 0;
 };
 
 struct LightSample {
