@@ -17,6 +17,9 @@ class SurfaceLight : public Light {
       : radiance_(std::move(radiance)), mean_(meanRadiance), twoSided_(twoSided) {}
 
   bool isDelta() const noexcept override { return false; }
+  bool isDrawn() const noexcept final { return isDrawn_; }
+  /// Lights no surfaces: neither rays are drawn towards it nor particles from it.
+  void hide() noexcept { isDrawn_ = false; }
   std::optional<LightSample> sample(Vec3 from, Vec2 u) const noexcept override;
   Real pdf(const LightHit& hit) const noexcept override;
   Rgb eval(const LightHit& hit) const noexcept override;
@@ -59,6 +62,7 @@ class SurfaceLight : public Light {
   Radiance radiance_;
   Rgb mean_;
   bool twoSided_;
+  bool isDrawn_ = true;
 };
 
 }  // namespace vestige

@@ -96,14 +96,14 @@ class Distributed final : public Integrator {
  private:
   /// What comes along a ray: what shines on its way, and the tree behind the surface it meets.
   Rgb radiance(PathContext& c, Node& node, Real size) const noexcept {
-    Rgb sum;
+    Rgb sum, left{1, 1, 1};
     for (int layer = 0; layer < kMaxLayers; ++layer) {
       ++c.counters.rays;
       const std::optional<Surface> hit = c.scene.intersect(node.ray);
-      if (!hit) return sum + escaped(c, node);
+      if (!hit) return sum + left * escaped(c, node);
       PathFootprint<>* f = node.footprint;
       if (f) f->arrive(*hit, size);
-      sum += metLight(c.scene, *hit, node.drawn);
+      sum += left * metLight(c.scene, *hit, node.drawn);
       InputBuffer buffer;
       const Vec3 toPrev = -node.ray.direction;
       Interaction x;
@@ -112,9 +112,9 @@ class Distributed final : public Integrator {
       else
         c.scene.shade(*hit, toPrev, regionAt(c.scene, *hit, f), buffer, x);
       if (node.edge == 1 && layer == 0 && c.aovs) writeAovs(*c.aovs, *hit, x);
-      if (stays(c, node, x, layer)) return sum + reflected(c, node, *hit, x, size);
+      if (stays(c, node, x, layer, left)) return sum + left * reflected(c, node, *hit, x, size);
       node.report.end(*hit, x.toPrev, grey(1), "pass", f);
-      node.ray = spawnRay(*hit, node.ray.direction);
+      node.ray = spawnRay(*hit, node.ray.direction, node.ray.kind);
     }
     return sum;
   }
@@ -124,14 +124,16 @@ class Distributed final : public Integrator {
     return filteredBackground(c.scene, node.drawn, node.ray.direction, node.footprint);
   }
 
-  /// Whether the ray ends at a surface that may be partly transparent.
-  static bool stays(PathContext& c, Node& node, const Interaction& x, int layer) noexcept {
-    if (x.opacity >= 1) return true;
+  /// Whether the ray ends at a surface that may be partly transparent; `left` of its light counts.
+  static bool stays(PathContext& c, Node& node, const Interaction& x, int layer,
+                    Rgb& left) noexcept {
+    if (isOpaque(x.opacity)) return true;
     const std::uint32_t dim = dimension::vertex(std::uint32_t(node.edge - 1)) +
                               dimension::kOpacity + 0x10000u * std::uint32_t(layer);
-    const bool stays = c.sampler.number(dim, node.index) < x.opacity;
-    if (node.footprint) node.footprint->chance(stays ? x.opacity : 1 - x.opacity);
-    return stays;
+    const Passage passage = drawPassage(x.opacity, left, c.sampler.number(dim, node.index));
+    if (node.footprint) node.footprint->chance(passage.chance);
+    left *= passage.weight;
+    return passage.stays;
   }
 
   /// Direct light, and the mean of the split's rays.
@@ -205,7 +207,7 @@ class Distributed final : public Integrator {
                Real size) const noexcept {
     PathReport* report = reports.take();
     if (report) report->scatter(s, x.toPrev, grey(1), next, node.footprint);
-    Node below{spawnRay(s, next.toNext),
+    Node below{spawnRay(s, next.toNext, kindOf(next.local)),
                {s.position, next.local.specular ? kInfinity : Real(split_.count) * next.local.pdf,
                 Real(lightSamples_)},
                index,

@@ -18,8 +18,8 @@ namespace {
 constexpr int kRouletteFrom = 4;
 /// Nobody survives for certain: a closed room of white walls still ends.
 constexpr Real kMaxSurvival = Real(0.95);
-/// Passing through this many layers without scattering ends a path, as it blocks a shadow ray.
-constexpr int kMaxLayers = 64;
+/// Passing through this many layers without scattering ends a path: it does not get ahead.
+constexpr int kMaxLayers = 1 << 15;
 
 constexpr int kMaxSplit = 256;
 /// Of edges, and of scatterings of a kind; roulette ends all paths long before.
@@ -252,14 +252,17 @@ class PathIntegrator final : public Integrator {
         lastSurface(c.scene, v.s, toPrev, v.x);
       else
         c.scene.shade(v.s, toPrev, regionAt(c.scene, v.s, path.footprint), v.inputs, v.x);
-      if (v.x.opacity >= 1) return true;
+      if (isOpaque(v.x.opacity)) return true;
       const std::uint32_t dim = dimension::vertex(path.edge - 1) + dimension::kOpacity;
       // Layers beyond the first have numbers of their own, far from those of any vertex.
-      const bool stays = c.sampler.number(dim + 0x10000u * layer, path.index) < v.x.opacity;
-      path.chance(stays ? v.x.opacity : 1 - v.x.opacity);
-      if (stays) return true;
+      const Passage passage = drawPassage(v.x.opacity, path.throughput,
+                                          c.sampler.number(dim + 0x10000u * layer, path.index));
+      path.chance(passage.chance);
+      path.throughput *= passage.weight;
+      path.flux *= passage.weight;
+      if (passage.stays) return true;
       path.report.end(v.s, toPrev, path.throughput, "pass", path.footprint);
-      path.ray = spawnRay(v.s, path.ray.direction);
+      path.ray = spawnRay(v.s, path.ray.direction, path.ray.kind);
     }
     return false;
   }
@@ -294,7 +297,7 @@ class PathIntegrator final : public Integrator {
     path.flux *= drawn->local.weight;
     path.drawn.from = v.s.position;
     path.drawn.density = drawn->local.specular ? kInfinity : Real(siblings) * drawn->local.pdf;
-    path.ray = spawnRay(v.s, drawn->toNext);
+    path.ray = spawnRay(v.s, drawn->toNext, kindOf(drawn->local));
     const bool goesOn =
         !isBlack(path.throughput) &&
         (path.edge < kRouletteFrom ||

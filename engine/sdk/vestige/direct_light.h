@@ -19,10 +19,16 @@ struct DrawnRay {
   bool isUnrivalled() const noexcept { return !(density < kInfinity); }
 };
 
+/// Whether only shadow rays bring the light that a ray met; `rival`: their density.
+inline bool isLeftToShadowRays(const SceneView& scene, const DrawnRay& ray, Real rival) noexcept {
+  return rival > 0 && !ray.isUnrivalled() && !scene.shadowsMatchIndirect();
+}
+
 /// The radiance of a light that the ray met, weighted.
 inline Rgb metLight(const SceneView& scene, const Surface& s, const DrawnRay& ray) noexcept {
   if (s.light < 0) return {};
   const Real rival = ray.lightSamples * scene.lightPdf(s, ray.from);
+  if (isLeftToShadowRays(scene, ray, rival)) return {};
   return powerHeuristic(ray.density, rival) * scene.emitted(s, ray.from);
 }
 
@@ -36,6 +42,7 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
     LightHit hit{ray.from, direction, kInfinity, {}, {}, {}};
     if (spread) hit.spread[0] = spread[0], hit.spread[1] = spread[1];
     const Real rival = ray.lightSamples * scene.lightChance(i, ray.from) * light.pdf(hit);
+    if (isLeftToShadowRays(scene, ray, rival)) continue;
     sum += powerHeuristic(ray.density, rival) * light.eval(hit);
   }
   return sum;
@@ -73,14 +80,14 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
   const Rgb f = evalScatter(x, drawn.hit.toLight);
   if (isBlack(f) || isBlack(drawn.radiance)) return {};
   ++c.counters.shadowRays;
-  const Real visible = c.scene.transmittance(shadowRay(s, drawn.hit.toLight, drawn.hit.distance));
-  if (visible == 0) return {};
+  const Rgb visible = c.scene.transmittance(shadowRay(s, drawn.hit.toLight, drawn.hit.distance));
+  if (isBlack(visible)) return {};
   const Real density = towards.chance * drawn.pdf;
   const Real weight =
-      towards.light->isDelta()
+      towards.light->isDelta() || !c.scene.shadowsMatchIndirect()
           ? 1
           : powerHeuristic(samples * density, scattered * scatterPdf(x, drawn.hit.toLight));
-  return (visible * weight / density) * f * drawn.radiance;
+  return (weight / density) * visible * f * drawn.radiance;
 }
 
 /// Next-event estimation: the mean of `samples` of these is the direct light.

@@ -35,6 +35,7 @@ struct Surface : SurfacePoint {
   Vec2 patchUv;         ///< [0,1]^2 in that patch
   Real offset = 0;      ///< how far a new ray starts off the surface, scene units
   bool closed = false;  ///< part of the boundary of a solid
+  Real time = 0;        ///< of the ray that met it
 };
 
 /// A surface with its material looked up: what an integrator scatters at. Copying is cheap; the
@@ -44,7 +45,7 @@ struct Interaction {
   ScatterPoint point;          ///< local view for the BRDF
   Frame frame;                 ///< shading frame: n faces toPrev, s along dP/du
   Vec3 geometricNormal;        ///< faces toPrev
-  Real opacity = 1;            ///< below 1 a path passes through with chance 1 - opacity
+  Rgb opacity{1, 1, 1};        ///< share that does not pass straight through: see drawPassage()
   Vec3 toPrev;                 ///< world
 };
 
@@ -77,9 +78,9 @@ class SceneView {
     return result;
   }
 
-  /// Share of light that gets from a surface along a direction to a distance (or out of the scene):
-  /// product of 1 - opacity, 0 behind more than 64 layers.
-  virtual Real transmittance(const Ray& ray) const noexcept = 0;
+  /// Share of light that gets along the ray: the product of 1 - opacity over all that shadow rays
+  /// meet, whatever the ray's own kind.
+  virtual Rgb transmittance(const Ray& ray) const noexcept = 0;
 
   /// Evaluates the material's inputs over the footprint, bends and maps the normal.
   virtual void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
@@ -90,8 +91,9 @@ class SceneView {
     shade(surface, toPrev, footprint, buffer, result);
     return result;
   }
-  /// Of all this only the opacity, [0, 1], looked up at a point.
-  virtual Real opacity(const Surface& surface) const noexcept = 0;
+  /// Of all this only the opacity, [0, 1]. It is looked up at a point, here and in shade(): paths
+  /// and shadow rays must see the same one.
+  virtual Rgb opacity(const Surface& surface) const noexcept = 0;
 
   /// What the surface emits towards `from`; black if it is no light.
   virtual Rgb emitted(const Surface& surface, Vec3 from) const noexcept = 0;
@@ -107,6 +109,9 @@ class SceneView {
   virtual std::optional<LightChoice> chooseLight(Vec3 at, Real u) const noexcept = 0;
   /// Of that choice, [0,1].
   virtual Real lightChance(int light, Vec3 at) const noexcept = 0;
+  /// Whether shadow rays meet just what indirect rays meet. If not, only shadow rays bring the
+  /// light of lights that are drawn: two strategies that see different scenes cannot be weighted.
+  virtual bool shadowsMatchIndirect() const noexcept { return true; }
   /// Indices into lights() of those at infinity.
   virtual std::span<const int> infiniteLights() const noexcept = 0;
 
@@ -131,9 +136,9 @@ class SceneView {
 
 /// A ray that leaves a surface, started off it on the side it goes to, so that rounding cannot hit
 /// the same surface again.
-inline Ray spawnRay(const Surface& s, Vec3 direction) noexcept {
+inline Ray spawnRay(const Surface& s, Vec3 direction, RayKind kind = RayKind::any) noexcept {
   const Real side = dot(direction, s.geometricNormal) < 0 ? Real(-1) : Real(1);
-  return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity};
+  return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity, s.time, kind};
 }
 /// The same, ending just before a light at a distance.
 inline Ray shadowRay(const Surface& s, Vec3 toLight, Real distance) noexcept {
@@ -141,6 +146,36 @@ inline Ray shadowRay(const Surface& s, Vec3 toLight, Real distance) noexcept {
   // A light does not shadow itself.
   if (std::isfinite(distance)) r.tMax = distance - 2 * s.offset - distance * Real(1e-5);
   return r;
+}
+
+/// The kind of a scattered ray: `indirect` just if a light is drawn against it.
+inline RayKind kindOf(const ScatterSample& s) noexcept {
+  if (!s.specular) return RayKind::indirect;
+  return s.toNext.z < 0 ? RayKind::refraction : RayKind::reflection;
+}
+
+/// What a path does at a surface that lets light through.
+struct Passage {
+  bool stays;   ///< it scatters here; else it goes straight on
+  Real chance;  ///< (0,1], of that choice: tell the footprint
+  Rgb weight;   ///< multiplies the throughput; exactly 1 where opacity is grey
+};
+
+/// Whether a path stays, by u in [0,1). The chance is the opacity as the path's colour sees it, so
+/// that r + g + b of the throughput is the same after any number of layers.
+inline Passage drawPassage(Rgb opacity, Rgb throughput, Real u) noexcept {
+  const bool isGrey = opacity.r == opacity.g && opacity.g == opacity.b;
+  const auto sum = [](Rgb c) { return std::abs(c.r) + std::abs(c.g) + std::abs(c.b); };
+  const Real all = sum(throughput);
+  const Real staying =
+      isGrey || !(all > 0) ? opacity.r : std::min(sum(opacity * throughput) / all, Real(1));
+  const bool stays = u < staying;
+  const Real chance = stays ? staying : 1 - staying;
+  if (isGrey || !(chance > 0)) return {stays, chance > 0 ? chance : Real(1), grey(1)};
+  return {stays, chance, (stays ? opacity : grey(1) - opacity) / chance};
+}
+inline bool isOpaque(Rgb opacity) noexcept {
+  return opacity.r >= 1 && opacity.g >= 1 && opacity.b >= 1;
 }
 
 /// Which quantity a path carries away from the sensor or the light: radiance is scaled by

@@ -131,12 +131,18 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
       hierarchy.deposit(placeOf(s, x.toPrev), areaOf(path, area),
                         inUnits(bending(x) * power, rounding));
     }
-    if (x.opacity < 1) {
+    if (!isOpaque(x.opacity)) {
       // Layers beyond the first have numbers of their own, far from those of any vertex.
       const std::uint32_t own = dim + dimension::kOpacity + 0x10000u * std::uint32_t(layer);
-      const bool stays = sampler.number(own) < x.opacity;
-      path.chance(stays ? x.opacity : 1 - x.opacity);
-      if (!stays) {
+      const Passage passage = drawPassage(x.opacity, power, sampler.number(own));
+      path.chance(passage.chance);
+      if (!(passage.weight == grey(1))) {
+        power *= passage.weight;
+        const Flux weighted = inUnits(power, rounding);
+        add(booking.gained, weighted), add(booking.gained, carried, -1);
+        carried = weighted;
+      }
+      if (!passage.stays) {
         if (++layer == kMaxLayers) return add(booking.absorbed, carried);
         ray = spawnRay(s, ray.direction);
         continue;

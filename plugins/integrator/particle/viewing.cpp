@@ -67,12 +67,15 @@ bool Viewing::meet(Path& p) const noexcept {
     if (p.footprint) p.footprint->arrive(p.s, sizeOf(scene));
     p.radiance += p.throughput * metLight(scene, p.s, p.drawn);
     scene.shade(p.s, -p.ray.direction, regionAt(scene, p.s, p.footprint), p.inputs, p.x);
-    if (p.x.opacity >= 1) return true;
-    const bool stays = p.number(dimension::kOpacity + 0x10000u * layer) < p.x.opacity;
-    if (p.footprint) p.footprint->chance(stays ? p.x.opacity : 1 - p.x.opacity);
-    if (stays) return true;
+    if (isOpaque(p.x.opacity)) return true;
+    const Passage passage =
+        drawPassage(p.x.opacity, p.throughput, p.number(dimension::kOpacity + 0x10000u * layer));
+    if (p.footprint) p.footprint->chance(passage.chance);
+    p.throughput *= passage.weight;
+    p.flux *= passage.weight;
+    if (passage.stays) return true;
     p.report.end(p.s, p.x.toPrev, p.throughput, "pass", p.footprint);
-    p.ray = spawnRay(p.s, p.ray.direction);
+    p.ray = spawnRay(p.s, p.ray.direction, p.ray.kind);
   }
   return false;
 }
@@ -125,7 +128,7 @@ bool Viewing::scatter(Path& p) const noexcept {
   p.drawn = {p.s.position, next->local.specular ? kInfinity : next->local.pdf};
   if (p.footprint) p.footprint->scatter(p.s, p.x, *next, numbers);
   p.report.left(p.footprint);
-  p.ray = spawnRay(p.s, next->toNext);
+  p.ray = spawnRay(p.s, next->toNext, kindOf(next->local));
   if (p.edge < kRouletteFrom) return true;
 
   // A glossy part may be negative where the matt one says too much.
