@@ -347,7 +347,7 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
     m.constants[i] = {{mean.colour.r, mean.colour.g, mean.colour.b, mean.alpha}};
     const bool isReal = rows[i].type == ValueType::real;
     // What enters the light linearly may be averaged; a normal or a roughness may not [MATH T8].
-    // Opacity is looked up at points, as shadow rays see it: docs/adr/0009.
+    // Opacity is looked up at points, as shadow rays see it: docs/adr/0012.
     const bool isFiltered = !isReal && i != m.normalMap && !rows[i].isNonlinear;
     m.textured.push_back({i, isReal, isFiltered, Real(rows[i].low), Real(rows[i].high), *p});
     m.usesFootprint |= isFiltered;
