@@ -63,7 +63,7 @@ std::string typeCell(const Parameter& p) {
 std::string textureCell(const Parameter& p, const std::string& kind) {
   if (!p.texturable) return "";
   const bool linear = p.type == ValueType::rgb && !p.isNonlinear && p.name != "normal_map";
-  return kind == "brdf" && (linear || p.name == "opacity") ? "averaged" : "at points";
+  return kind == "brdf" && linear ? "averaged" : "at points";
 }
 
 std::string defaultCell(const Parameter& p) {

@@ -47,7 +47,7 @@ class Recorder final : public SceneView {
     queries_.push_back({ray, false});
     return s_.intersect(ray, surface);
   }
-  Real transmittance(const Ray& ray) const noexcept override {
+  Rgb transmittance(const Ray& ray) const noexcept override {
     queries_.push_back({ray, true});
     return s_.transmittance(ray);
   }
@@ -56,7 +56,8 @@ class Recorder final : public SceneView {
              Interaction& x) const noexcept override {
     s_.shade(s, toPrev, f, buffer, x);
   }
-  Real opacity(const Surface& s) const noexcept override { return s_.opacity(s); }
+  bool shadowsMatchIndirect() const noexcept override { return s_.shadowsMatchIndirect(); }
+  Rgb opacity(const Surface& s) const noexcept override { return s_.opacity(s); }
   Rgb emitted(const Surface& s, const Receiver& r) const noexcept override {
     return s_.emitted(s, r);
   }
@@ -108,7 +109,7 @@ std::vector<Query> raysOf(Scene& scene, int samples) {
     if (!start) return;
     PathContext context{.scene = recorder,
                         .sampler = sampler,
-                        .ray = {start->origin, start->direction, 0, kInfinity},
+                        .ray = {start->origin, start->direction, 0, kInfinity, 0, RayKind::camera},
                         .jacobian = scene.camera().sampleDerivatives(numbers),
                         .cameraVariables = scene.camera().variables(),
                         .declaredSamples = std::uint64_t(samples),

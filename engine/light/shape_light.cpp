@@ -97,7 +97,7 @@ class AnalyticLight final : public SurfaceLight {
     const Vec3 eye = place_.toObject.point(from);
     const std::optional<ShapeHit> hit = shape_->intersect({eye, c.toShape, 0, kInfinity});
     const Vec3 near = eye + (hit ? hit->t : c.distance) * c.toShape;
-    return place_.world(shape_->surface(near, hit ? hit->part : 0));
+    return place_.world(shape_->surface(near, hit ? *hit : ShapeHit{}));
   }
 
   std::optional<AreaSample> draw(Vec2 u) const noexcept override {
@@ -192,9 +192,13 @@ class MeshLight final : public SurfaceLight {
 std::unique_ptr<Light> makeShapeLight(const Placement& placement,
                                       std::function<Rgb(const SurfacePoint&)> radiance,
                                       bool twoSided, Rgb meanRadiance) {
+  std::unique_ptr<SurfaceLight> light;
   if (placement.mesh)
-    return std::make_unique<MeshLight>(placement, std::move(radiance), twoSided, meanRadiance);
-  return std::make_unique<AnalyticLight>(placement, std::move(radiance), twoSided, meanRadiance);
+    light = std::make_unique<MeshLight>(placement, std::move(radiance), twoSided, meanRadiance);
+  else
+    light = std::make_unique<AnalyticLight>(placement, std::move(radiance), twoSided, meanRadiance);
+  if (!shareKind(placement.visibleTo, RayKind::indirect)) light->hide();
+  return light;
 }
 
 }  // namespace vestige

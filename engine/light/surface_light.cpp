@@ -88,6 +88,7 @@ SurfaceLight::Side SurfaceLight::side(Vec2 u) const noexcept {
 }
 
 std::optional<Particle> SurfaceLight::emit(EmissionNumbers u) const noexcept {
+  if (!isDrawn_) return std::nullopt;
   const std::optional<AreaSample> a = draw(u.point);
   if (!a) return std::nullopt;
   const Side s = side(u.direction);

@@ -16,6 +16,9 @@ class SurfaceLight : public Light {
   SurfaceLight(Radiance radiance, bool twoSided, Rgb meanRadiance)
       : radiance_(std::move(radiance)), mean_(meanRadiance), twoSided_(twoSided) {}
 
+  LightTraits traits() const noexcept final { return {.isDrawn = isDrawn_}; }
+  /// Lights no surfaces: neither rays are drawn towards it nor particles from it.
+  void hide() noexcept { isDrawn_ = false; }
   std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override;
   Real pdf(const Receiver& r, const LightHit& hit) const noexcept override;
   Rgb eval(const LightHit& hit) const noexcept override;
@@ -60,6 +63,7 @@ class SurfaceLight : public Light {
   Radiance radiance_;
   Rgb mean_;
   bool twoSided_;
+  bool isDrawn_ = true;
 };
 
 }  // namespace vestige

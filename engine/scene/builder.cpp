@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <vestige/medium.h>
 
+#include <sstream>
+
 #include "engine/light/shape_light.h"
 #include "engine/scene/engine_schemas.h"
 #include "engine/scene/middle.h"
@@ -16,6 +18,14 @@ Block defaultBrdf() {
   Block b;
   b.kind = "brdf", b.plugin = "lambert";
   return b;
+}
+
+/// Whether the shape itself never sees a setting.
+bool isEngineRow(const std::string& name) {
+  for (const char* row :
+       {kEmission, kEmissionSides, kVisibleTo, kNoShadow, kNoImage, kNoReflection})
+    if (name == row) return true;
+  return false;
 }
 
 /// A word of a key, which cannot run into the next.
@@ -32,7 +42,7 @@ std::string shapeKey(const Block& block, const SceneDesc& description, const Plu
   };
   addText(block.span);
   for (const Setting& s : block.settings) {
-    if (s.name == kEmission || s.name == kEmissionSides) continue;
+    if (isEngineRow(s.name)) continue;
     if (s.value.kind == Value::Kind::block) return "";
     key += word(s.name) + word(s.value.text);
     if (!s.value.text.empty()) addText(s.value.span);
@@ -97,7 +107,7 @@ bool SceneBuilder::build() {
 void SceneBuilder::addTop(const Block& block) {
   if (block.kind == "film") readFilm(block);
   if (block.kind == "light") addLight(block);
-  if (block.kind == "shape" || block.kind == "union") addShape(block, nullptr);
+  if (block.kind == "shape" || block.kind == "union") addShape(block, nullptr, RayKind::any);
 }
 
 // ---------------------------------------------------------------- plugins
@@ -241,31 +251,67 @@ std::shared_ptr<Interface> SceneBuilder::tryOut(const Block& block) const {
 
 Affine SceneBuilder::traced(const Affine& toWorld) const { return around(impl_.origin, toWorld); }
 
-void SceneBuilder::addShape(const Block& block, const Block* outerBrdf) {
+RayKind SceneBuilder::visibility(const Block& block, RayKind outer) {
+  static const std::map<std::string, RayKind> words = {{"camera", RayKind::camera},
+                                                       {"shadow", RayKind::shadow},
+                                                       {"reflection", RayKind::reflection},
+                                                       {"refraction", RayKind::refraction},
+                                                       {"indirect", RayKind::indirect}};
+  RayKind kinds = outer;
+  if (const Value* given = block.find(kVisibleTo)) {
+    kinds = RayKind{};
+    std::istringstream text(given->text);
+    for (std::string w; text >> w;) {
+      if (const auto found = words.find(w); found != words.end())
+        kinds = kinds | found->second;
+      else
+        error(at(given->span), fmt::format("'{}' takes camera, shadow, reflection, refraction and "
+                                           "indirect, found '{}'",
+                                           kVisibleTo, w));
+    }
+  }
+  const auto remove = [&](const char* row, RayKind k) {
+    const Value* given = block.find(row);
+    if (given && given->v[0] != 0) kinds = without(kinds, k);
+  };
+  remove(kNoShadow, RayKind::shadow);
+  remove(kNoImage, RayKind::camera | RayKind::refraction);
+  remove(kNoReflection, RayKind::reflection);
+  return kinds;
+}
+
+void SceneBuilder::addShape(const Block& block, const Block* outerBrdf, RayKind outerKinds) {
   place_ = block.span;
+  const RayKind visibleTo = visibility(block, outerKinds);
   // A brdf outside of a union is for the parts that have none of their own.
   const Block* brdf = block.child("brdf") ? block.child("brdf") : outerBrdf;
   if (block.kind == "union") {
     for (const Block& part : block.children)
-      if (part.kind == "shape" || part.kind == "union") addShape(part, brdf);
+      if (part.kind == "shape" || part.kind == "union") addShape(part, brdf, visibleTo);
     return;
   }
   const std::shared_ptr<const Shape> shape = prepared_.at(&block);
   if (!shape) return;
-  if (shape->parts()) return addMeshParts(block, shape, brdf);
+  if (shape->parts()) return addMeshParts(block, shape, brdf, visibleTo);
   Placement p;
-  p.shape = shape, p.toWorld = traced(block.world), p.closed = shape->isClosed();
+  p.shape = shape;
+  p.toWorld = traced(block.world);
+  p.closed = shape->isClosed();
+  p.visibleTo = visibleTo;
   const Value* sides = block.find(kEmissionSides);
   place(p, brdf, block.find(kEmission), sides && sides->text == "both", block);
 }
 
 void SceneBuilder::addMeshParts(const Block& block, const std::shared_ptr<const Shape>& shape,
-                                const Block* brdf) {
+                                const Block* brdf, RayKind visibleTo) {
   const Value* sides = block.find(kEmissionSides);
   for (const MeshPart& part : *shape->parts()) {
     Placement p;
-    p.shape = shape, p.mesh = &part.mesh, p.toWorld = traced(block.world),
+    p.shape = shape;
+    p.mesh = &part.mesh;
+    p.toWorld = traced(block.world);
     p.closed = shape->isClosed();
+    p.visibleTo = visibleTo;
     const Value* emission = block.find(kEmission);
     if (!emission && part.emission.kind != Value::Kind::none) emission = &part.emission;
     place(p, brdf ? brdf : part.brdf.get(), emission, sides && sides->text == "both", block);
@@ -315,6 +361,14 @@ void SceneBuilder::addEmission(Placement& p, const Value& emission, bool bothSid
     if (isBlack(mean)) return;
     radiance = [mean](const SurfacePoint&) { return mean; };
   }
+  // What is cut away does not shine, and of a thin veil only its share.
+  const Material& material = impl_.materials[std::size_t(impl_.objectMaterial[p.object])];
+  if (material.isTranslucent) {
+    mean = material.cut(Inputs(material.constants.data()).rgb(material.opacity)) * mean;
+    radiance = [material, whole = std::move(radiance)](const SurfacePoint& at) {
+      return material.opacityAt(at) * whole(at);
+    };
+  }
   p.light = int(impl_.ownedLights.size());
   impl_.ownedLights.push_back(makeShapeLight(p, radiance, bothSides, mean));
 }
@@ -333,15 +387,20 @@ void SceneBuilder::addInputs(const Block& block, bool isNested) {
   if (!known(block)) return;
   const std::vector<Parameter>& rows = registry_.schema("brdf", block.plugin)->inputs;
   const std::size_t own = registry_.find("brdf", block.plugin)->schema->inputs.size();
+  const auto refuse = [&](const Value* given, const std::string& name) {
+    if (given)
+      error(given->span, fmt::format("'{}' belongs to the surface: write it in the outer brdf, not "
+                                     "in one inside it",
+                                     name));
+  };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Value* given = block.find(rows[i].name);
     if (i < own || !isNested)
       inputs_.push_back({&rows[i], given});
-    else if (given)
-      error(given->span, fmt::format("'{}' belongs to the surface: write it in the outer brdf, not "
-                                     "in one inside it",
-                                     rows[i].name));
+    else
+      refuse(given, rows[i].name);
   }
+  if (isNested) refuse(block.find(kOpacityCutoff), kOpacityCutoff);
 }
 
 /// Constant or textured.
@@ -357,8 +416,8 @@ void SceneBuilder::evaluateInput(Material& m, int index, const Affine& partToWor
   m.constants[index] = {{mean.colour.r, mean.colour.g, mean.colour.b, mean.alpha}};
   const bool isReal = row->type == ValueType::real;
   // What enters the light linearly may be averaged; a normal or a roughness may not [MATH T8].
-  const bool isFiltered =
-      index == m.opacity || (!isReal && index != m.normalMap && !row->isNonlinear);
+  // Opacity is looked up at points, as shadow rays see it: docs/adr/0012.
+  const bool isFiltered = !isReal && index != m.normalMap && !row->isNonlinear;
   m.textured.push_back({index, isReal, isFiltered, Real(row->low), Real(row->high), *p});
   m.usesFootprint |= isFiltered;
   if (index == m.normalMap) m.hasNormalMap = true;
@@ -389,7 +448,8 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
     if (row.isRefractiveIndex) m.refractiveIndex = i;
   }
   for (int i = 0; i < m.inputs; ++i) evaluateInput(m, i, partToWorld);
-  if (m.constants[m.opacity].v[0] < 1) m.isTranslucent = true;
+  if (const Value* cutoff = block.find(kOpacityCutoff)) m.cutoff = Real(cutoff->v[0]);
+  if (!isOpaque(m.cut(Inputs(m.constants.data()).rgb(m.opacity)))) m.isTranslucent = true;
   if (diagnostics_.errors() == errorsBefore) m.brdf = std::move(brdf);
   return m;
 }
@@ -480,11 +540,23 @@ void SceneBuilder::addLight(const Block& block) {
   if (!light) return;
   const int index = int(impl_.ownedLights.size());
   impl_.ownedLights.push_back(light);
-  if (!light->geometry()) return;
+  const RayKind visibleTo = visibility(block, RayKind::any);
+  if (!light->geometry()) {
+    if (visibleTo != RayKind::any)
+      error(block.span, fmt::format("light {} has no surface that rays could meet: leave out '{}', "
+                                    "'{}', '{}' and '{}'",
+                                    block.plugin, kVisibleTo, kNoShadow, kNoImage, kNoReflection));
+    return;
+  }
+  if (!shareKind(visibleTo, RayKind::indirect))
+    error(block.span, fmt::format("light {} must be visible to indirect rays: they are what it "
+                                  "lights surfaces by",
+                                  block.plugin));
   impl_.materials.emplace_back();  // reflects nothing
   impl_.objectMaterial.push_back(int(impl_.materials.size()) - 1);
   impl_.objects.push_back({"light " + block.plugin, "", block.span});
   Placement p;
+  p.visibleTo = visibleTo;
   p.mesh = light->geometry(), p.object = int(impl_.objectMaterial.size()) - 1, p.light = index;
   impl_.world.add(p);
 }

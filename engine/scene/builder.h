@@ -42,9 +42,12 @@ class SceneBuilder {
   /// A transform to world space, into the space that is traced in.
   Affine traced(const Affine& toWorld) const;
   void addTop(const Block& block);
-  void addShape(const Block& block, const Block* outerBrdf);
+  /// `outer...`: what the unions around it say.
+  void addShape(const Block& block, const Block* outerBrdf, RayKind outerKinds);
   void addMeshParts(const Block& block, const std::shared_ptr<const Shape>& shape,
-                    const Block* brdf);
+                    const Block* brdf, RayKind visibleTo);
+  /// The kinds of rays that meet a block; `outer`: where it does not say.
+  RayKind visibility(const Block& block, RayKind outer);
   /// Shares one shape among blocks that say the same, in this build and the one before.
   std::shared_ptr<const Shape> shapeFor(const Block& block);
   const BuildCache::KeptShape& takeShape(const BuildCache::KeptShape& kept, const Block& block);

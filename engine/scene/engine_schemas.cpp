@@ -5,6 +5,25 @@
 
 namespace vestige {
 
+namespace {
+
+std::vector<Parameter> visibilityRows() {
+  return {
+      text(kVisibleTo, "")
+          .unset()
+          .doc("kinds of rays that meet it, some of \"camera shadow reflection refraction "
+               "indirect\"; default: all, or what the union around it says"),
+      boolean(kNoShadow, false).doc("shadow rays do not meet it"),
+      boolean(kNoImage, false).doc("camera rays do not meet it, nor those through smooth glass"),
+      boolean(kNoReflection, false).doc("rays from mirrors do not meet it")};
+}
+
+void append(std::vector<Parameter>& rows, std::vector<Parameter> more) {
+  rows.insert(rows.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
 std::vector<Schema> engineSchemas() {
   Value whole = vectorValue({0, 0, 1, 1});
   std::vector<Schema> all = footprintSchemas();
@@ -26,6 +45,7 @@ std::vector<Schema> engineSchemas() {
       {.kind = "union",
        .name = "",
        .summary = "several shapes as one: a brdf or a transform after them is for all",
+       .params = visibilityRows(),
        .children = {"shape", "union", "brdf"}},
   };
   all.insert(all.end(), std::begin(blocks), std::end(blocks));
@@ -39,8 +59,15 @@ Schema withEngineRows(Schema schema) {
             .doc(
                 "tangent-space normals, 0..1 for -1..1, y towards growing v; color_space \"raw\""));
     schema.inputs.push_back(
-        real(kOpacity, 1).range(0, 1).doc("share of light that does not pass straight through"));
+        rgb(kOpacity, 1)
+            .range(0, 1)
+            .nonlinear()
+            .doc("share of light that does not pass straight through; a colour: by channel"));
     for (Parameter& p : schema.inputs) p.texturable = true;
+    schema.params.push_back(real(kOpacityCutoff, 0.5)
+                                .unset()
+                                .range(0, 1)
+                                .doc("a cut-out: opacity from here on is 1, below it 0"));
   }
   if (schema.kind == "shape") {
     Parameter emission = rgb(kEmission, 0)
@@ -52,8 +79,10 @@ Schema withEngineRows(Schema schema) {
     schema.params.push_back(emission);
     schema.params.push_back(choice(kEmissionSides, {"front", "both"})
                                 .doc("front: the side of the normal, outside of solids"));
+    append(schema.params, visibilityRows());
     schema.children.push_back("brdf");
   }
+  if (schema.kind == "light") append(schema.params, visibilityRows());
   return schema;
 }
 

@@ -12,7 +12,8 @@ namespace vestige {
 std::vector<Schema> engineSchemas();
 
 /// A plugin's schema as the language sees it: inputs are texturable; a brdf has `normal_map` and
-/// `opacity` after its own inputs, a shape `emission` and a brdf inside.
+/// `opacity` after its own inputs and `opacity_cutoff` after its parameters, a shape `emission` and
+/// a brdf inside; shapes and lights say to which rays they are visible.
 Schema withEngineRows(Schema schema);
 
 /// How many inputs withEngineRows() appends to a brdf: normal_map, then opacity.
@@ -22,5 +23,12 @@ inline constexpr const char* kOpacity = "opacity";
 /// Names of the rows that it appends to a shape.
 inline constexpr const char* kEmission = "emission";
 inline constexpr const char* kEmissionSides = "emission_sides";
+/// ... to a shape, a union and a light.
+inline constexpr const char* kVisibleTo = "visible_to";
+inline constexpr const char* kNoShadow = "no_shadow";
+inline constexpr const char* kNoImage = "no_image";
+inline constexpr const char* kNoReflection = "no_reflection";
+/// ... to the parameters of a brdf.
+inline constexpr const char* kOpacityCutoff = "opacity_cutoff";
 
 }  // namespace vestige

@@ -74,12 +74,18 @@ Vec2 Material::texels() const noexcept {
   return finest;
 }
 
-Real Material::opacityAt(const SurfacePoint& at) const noexcept {
-  if (!isTranslucent) return 1;
+Rgb Material::cut(Rgb c) const noexcept {
+  const auto share = [&](Real x) {
+    return cutoff < 0 ? std::clamp(x, Real(0), Real(1)) : Real(x >= cutoff ? 1 : 0);
+  };
+  return {share(c.r), share(c.g), share(c.b)};
+}
+
+Rgb Material::opacityAt(const SurfacePoint& at) const noexcept {
+  if (!isTranslucent) return grey(1);
   for (const TexturedInput& t : textured)
-    if (t.input == opacity)
-      return std::clamp(luminance(t.pigment.eval(at, {}).colour), Real(0), Real(1));
-  return opacity < 0 ? Real(1) : constants[opacity].v[0];
+    if (t.input == opacity) return cut(t.pigment.eval(at, {}).colour);
+  return cut(Inputs(constants.data()).rgb(opacity));
 }
 
 Inputs Material::evaluate(const SurfacePoint& at, const Footprint& footprint,
@@ -111,9 +117,7 @@ void interact(const Material& material, const Surface& surface, Vec3 toPrev,
                           : std::max(x.point.inputs.real(material.refractiveIndex), kLeastIndex);
   x.point.etaPrev = behind ? inside : Real(1);
   x.point.etaNext = behind ? Real(1) : inside;
-  x.opacity = material.opacity < 0
-                  ? 1
-                  : std::clamp(x.point.inputs.real(material.opacity), Real(0), Real(1));
+  x.opacity = material.isTranslucent ? material.cut(x.point.inputs.rgb(material.opacity)) : grey(1);
 }
 
 }  // namespace vestige

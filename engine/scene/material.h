@@ -41,13 +41,16 @@ struct Material {
   int normalMap = -1, opacity = -1;  ///< indices of these inputs
   int refractiveIndex = -1;          ///< of the inside; -1: light passes as through air, if at all
   bool hasNormalMap = false;
+  Real cutoff = -1;            ///< opacity below it is 0, else 1; below 0: it is as it is
   bool isTranslucent = false;  ///< opacity may be below 1
   bool usesFootprint = false;  ///< some input is filtered
 
   /// Texels of the finest texture, a unit of uv; <0, 0> without one.
   Vec2 texels() const noexcept;
   /// Opacity alone, for shadow rays.
-  Real opacityAt(const SurfacePoint& at) const noexcept;
+  Rgb opacityAt(const SurfacePoint& at) const noexcept;
+  /// An opacity as it was looked up, with the range and the cutoff applied.
+  Rgb cut(Rgb opacity) const noexcept;
   /// Looks the inputs up; constants are not copied where nothing is textured.
   Inputs evaluate(const SurfacePoint& at, const Footprint& footprint,
                   InputBuffer& buffer) const noexcept;

@@ -21,6 +21,9 @@ void Scene::Impl::commit(const std::shared_ptr<const World::Body>& before) {
     lightList.push_back(ownedLights[i].get());
     if (ownedLights[i]->traits().isInfinite) infinite.push_back(int(i));
   }
+  for (const Placement& p : world.placements())
+    hasOneView &=
+        shareKind(p.visibleTo, RayKind::shadow) == shareKind(p.visibleTo, RayKind::indirect);
   std::vector<double> powers;
   for (const Light* l : lightList) powers.push_back(double(luminance(l->power())));
   lightsByPower.build(powers);
@@ -29,7 +32,7 @@ void Scene::Impl::commit(const std::shared_ptr<const World::Body>& before) {
   for (const int i : infinite) hasTextures |= lightList[std::size_t(i)]->traits().usesSpread;
 }
 
-Real Scene::Impl::transmittance(const Ray& ray) const noexcept {
+Rgb Scene::Impl::transmittance(const Ray& ray) const noexcept {
   const auto opacity = [](const void* self, const Surface& s) {
     return static_cast<const Impl*>(self)->opacity(s);
   };

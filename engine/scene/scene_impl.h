@@ -30,7 +30,8 @@ struct Scene::Impl final : SceneView {
   FilmSettings film;
   std::uint64_t hash = 0;
   bool hasTextures = false;
-  Vec3 origin;  ///< SceneView::middle()
+  Vec3 origin;             ///< SceneView::middle()
+  bool hasOneView = true;  ///< shadow rays meet what indirect rays meet
 
   /// After everything was added: builds the tree, see World::commit(), and the table of lights.
   void commit(const std::shared_ptr<const World::Body>& before);
@@ -39,13 +40,13 @@ struct Scene::Impl final : SceneView {
   bool intersect(const Ray& ray, Surface& surface) const noexcept override {
     return world.intersect(ray, surface);
   }
-  Real transmittance(const Ray& ray) const noexcept override;
+  Rgb transmittance(const Ray& ray) const noexcept override;
   using SceneView::shade;
   void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint, InputBuffer& buffer,
              Interaction& result) const noexcept override {
     interact(material(surface), surface, toPrev, footprint, buffer, result);
   }
-  Real opacity(const Surface& s) const noexcept override { return material(s).opacityAt(s); }
+  Rgb opacity(const Surface& s) const noexcept override { return material(s).opacityAt(s); }
   Rgb emitted(const Surface& surface, const Receiver& r) const noexcept override;
   Real lightPdf(const Surface& surface, const Receiver& r) const noexcept override;
   std::span<const Light* const> lights() const noexcept override { return lightList; }
@@ -58,6 +59,7 @@ struct Scene::Impl final : SceneView {
   Real lightChance(int light, const Receiver& r) const noexcept override {
     return lightTree.chance(light, r);
   }
+  bool shadowsMatchIndirect() const noexcept override { return hasOneView; }
   std::span<const int> infiniteLights() const noexcept override { return infinite; }
   bool usesFootprints() const noexcept override { return hasTextures; }
   bool usesFootprint(const Surface& s) const noexcept override { return material(s).usesFootprint; }

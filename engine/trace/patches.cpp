@@ -96,7 +96,7 @@ Patch trianglePatch(const Item& item, int triangle) noexcept {
 
 Patch facePatch(const Item& item, int face) noexcept {
   if (item.bounds.isInfinite()) {
-    const Vec3 n = item.place.world(item.placement.shape->surface({}, 0)).geometricNormal;
+    const Vec3 n = item.place.world(item.placement.shape->surface({}, ShapeHit{})).geometricNormal;
     return {item.placement.object, kInfinity, item.bounds, n, false};
   }
   const Integral whole = integrate(item, face, {0, 0}, {1, 1});
@@ -150,7 +150,7 @@ SurfacePoint Patches::point(int patch, Vec2 uv) const noexcept {
     return item.baked ? s : item.place.world(s);
   }
   if (!item.bounds.isInfinite()) return item.place.world(item.placement.shape->at(uv, part));
-  SurfacePoint s = item.place.world(item.placement.shape->surface({}, 0));
+  SurfacePoint s = item.place.world(item.placement.shape->surface({}, ShapeHit{}));
   s.position += (uv.x - s.uv.x) * s.dPdu + (uv.y - s.uv.y) * s.dPdv;
   s.uv = uv;
   return s;
@@ -162,7 +162,7 @@ Real Patches::area(int patch, Vec2 low, Vec2 high) const noexcept {
   const int part = patch - first_[k];
   if (item.triangles) return Real(2 * clippedArea(low, high)) * trianglePatch(item, part).area;
   if (item.bounds.isInfinite()) {  // uv in scene units
-    const SurfacePoint s = item.place.world(item.placement.shape->surface({}, 0));
+    const SurfacePoint s = item.place.world(item.placement.shape->surface({}, ShapeHit{}));
     return length(cross(s.dPdu, s.dPdv)) * (high.x - low.x) * (high.y - low.y);
   }
   return Real(integrate(item, part, low, high).area);

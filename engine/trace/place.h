@@ -23,7 +23,10 @@ struct Place {
   /// The same t means the same point.
   Ray object(const Ray& world) const noexcept {
     if (identity) return world;
-    return {toObject.point(world.origin), toObject.vector(world.direction), world.tMin, world.tMax};
+    Ray ray = world;
+    ray.origin = toObject.point(world.origin);
+    ray.direction = toObject.vector(world.direction);
+    return ray;
   }
   /// World area of a unit of area whose unit normal in object space is this.
   Real stretch(Vec3 objectNormal) const noexcept {

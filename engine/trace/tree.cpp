@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/trace/tree.h"
 
+#include <algorithm>
 #include <map>
 
 #include "engine/trace/embree.h"
@@ -20,6 +21,9 @@ struct Group {
 struct Query {
   embree::Context context;
   const Ray* ray = nullptr;  ///< in full precision, for analytic shapes
+  const std::vector<Item>* items = nullptr;
+  const std::vector<int>* itemOfGeometry = nullptr;
+  Layers* layers = nullptr;  ///< null: whatever is met blocks
   int item = -1;             ///< of the nearest analytic hit so far
   ShapeHit hit = {};         ///< where
 };
@@ -28,6 +32,22 @@ std::optional<ShapeHit> meet(const Item& item, const Ray& world, float tFar) noe
   Ray ray = item.place.object(world);
   ray.tMax = std::min(ray.tMax, Real(tFar));
   return item.placement.shape->intersect(ray);
+}
+
+/// All meetings with an analytic shape, from the ray's own start: a shape may find slightly
+/// different points from another one.
+void gatherShape(const Item& item, int index, const Ray& world, Layers& layers) noexcept {
+  Ray ray = item.place.object(world);
+  std::array<Crossing, 16> found;
+  for (;;) {
+    const int n = item.placement.shape->crossings(ray, found);
+    for (int k = 0; k < n; ++k) {
+      const ShapeHit& hit = found[std::size_t(k)].hit;
+      layers.add({index, hit.part, hit.t, hit.uv});
+    }
+    if (n < int(found.size())) return;
+    ray.tMin = std::nextafter(std::max(ray.tMin, found.back().hit.t), kInfinity);
+  }
 }
 
 /// Outward, so that the float box holds whatever Real says.
@@ -63,12 +83,31 @@ void occludePrimitive(const RTCOccludedFunctionNArguments* a) {
   const Group& group = *static_cast<const Group*>(a->geometryUserPtr);
   const Query& query = *reinterpret_cast<const Query*>(a->context);
   auto& ray = *reinterpret_cast<RTCRay*>(a->ray);
-  if (meet((*group.items)[group.members[a->primID]], *query.ray, ray.tfar))
-    ray.tfar = -std::numeric_limits<float>::infinity();
+  const int index = group.members[a->primID];
+  const Item& item = (*group.items)[index];
+  if (query.layers && item.placement.translucent)
+    return gatherShape(item, index, *query.ray, *query.layers);
+  if (meet(item, *query.ray, ray.tfar)) ray.tfar = -std::numeric_limits<float>::infinity();
+}
+
+/// Called where a shadow ray meets a triangle that may be translucent; those are noted, and the ray
+/// goes on.
+void filterTriangle(const RTCFilterFunctionNArguments* a) {
+  const Query& query = *reinterpret_cast<const Query*>(a->context);
+  if (!a->valid[0] || !query.layers) return;
+  const RTCHit& hit = *reinterpret_cast<const RTCHit*>(a->hit);
+  const unsigned instance = a->context->instID[0];
+  const int item =
+      (*query.itemOfGeometry)[instance != RTC_INVALID_GEOMETRY_ID ? instance : hit.geomID];
+  if (!(*query.items)[item].placement.translucent) return;
+  const float t = reinterpret_cast<const RTCRay*>(a->ray)->tfar;
+  query.layers->add({item, int(hit.primID), Real(t), {Real(hit.u), Real(hit.v)}});
+  a->valid[0] = 0;
 }
 
 unsigned maskOf(const Item& item) noexcept {
-  return item.placement.translucent ? kTranslucent : kOpaque;
+  const RayKind kinds = item.placement.visibleTo;
+  return item.placement.translucent ? translucent(kinds) : opaque(kinds);
 }
 
 void fillRay(RTCRay& ray, const Ray& r, unsigned mask) noexcept {
@@ -76,10 +115,46 @@ void fillRay(RTCRay& ray, const Ray& r, unsigned mask) noexcept {
   ray.dir_x = float(r.direction.x), ray.dir_y = float(r.direction.y);
   ray.dir_z = float(r.direction.z);
   ray.tnear = float(r.tMin), ray.tfar = float(r.tMax);
-  ray.mask = mask, ray.time = 0, ray.id = ray.flags = 0;
+  ray.mask = mask;
+  ray.time = float(r.time);
+  ray.id = ray.flags = 0;
 }
 
 }  // namespace
+
+void Layers::add(const TreeHit& hit) noexcept {
+  if (hasBegun_ && !(last_ < hit)) return;
+  const auto begin = hits_.begin();
+  if (count_ < kMost) {
+    hits_[std::size_t(count_++)] = hit;
+    if (count_ == kMost) std::make_heap(begin, hits_.end());
+    return;
+  }
+  isCut_ = true;
+  if (!(hit < hits_[0])) return;
+  std::pop_heap(begin, hits_.end());
+  hits_.back() = hit;
+  std::push_heap(begin, hits_.end());
+}
+
+void Layers::settle() noexcept {
+  const auto begin = hits_.begin(), end = begin + count_;
+  std::sort(begin, end);
+  const auto isSame = [](const TreeHit& a, const TreeHit& b) { return !(a < b) && !(b < a); };
+  count_ = int(std::unique(begin, end, isSame) - begin);
+  if (!isCut_) return;
+  int whole = count_;
+  while (whole > 0 && hits_[std::size_t(whole - 1)].t == hits_[std::size_t(count_ - 1)].t) --whole;
+  if (whole > 0) count_ = whole;
+}
+
+Real Layers::goOn() noexcept {
+  last_ = hits_[std::size_t(count_ - 1)];
+  hasBegun_ = true;
+  count_ = 0;
+  isCut_ = false;
+  return last_.t;
+}
 
 /// The tree of a mesh that is placed several times; several trees of all may share it.
 struct MeshTree {
@@ -94,9 +169,9 @@ struct Tree::Impl {
   embree::Scene scene{rtcNewScene(device->get())};
   std::map<const Triangles*, std::shared_ptr<const MeshTree>> instanced;
   const std::vector<Item>* items = nullptr;
-  Group groups[2];                  ///< opaque, translucent
-  std::vector<int> unbounded;       ///< items tested one by one
-  std::vector<int> itemOfGeometry;  ///< -1: analytic
+  std::map<unsigned, Group> groups;  ///< by mask; they stay where they are
+  std::vector<int> unbounded;        ///< items tested one by one
+  std::vector<int> itemOfGeometry;   ///< -1: analytic
 
   void setFlags(RTCScene s) const {
     // Robust: closed meshes have no cracks and thin bounds are not missed, for 15 % of the speed.
@@ -125,6 +200,8 @@ embree::Geometry Tree::Impl::triangleGeometry(const Triangles& t) const {
   auto* i = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(g.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, t.size()));
   check(device->get(), "storing triangles");
+  // Trees of instances are shared, so their triangles may be translucent in one place only.
+  rtcSetGeometryOccludedFilterFunction(g.get(), filterTriangle);
   for (const Vec3 v : t.positions()) *p++ = float(v.x), *p++ = float(v.y), *p++ = float(v.z);
   for (const auto& c : t.indices()) i = std::copy(c.begin(), c.end(), i);
   return g;
@@ -134,7 +211,7 @@ std::shared_ptr<const MeshTree> Tree::Impl::meshTree(const Triangles& t) const {
   embree::Scene s(rtcNewScene(device->get()));
   setFlags(s.get());
   const embree::Geometry g = triangleGeometry(t);
-  rtcSetGeometryMask(g.get(), kEverything);
+  rtcSetGeometryMask(g.get(), ~0u);  // the instance's counts
   rtcCommitGeometry(g.get());
   rtcAttachGeometry(s.get(), g.get());
   rtcCommitScene(s.get());
@@ -152,7 +229,6 @@ void Tree::Impl::addInstance(RTCScene object, const Item& item, int index) {
 }
 
 void Tree::Impl::addGroup(Group& group, unsigned mask) {
-  if (group.members.empty()) return;
   const embree::Geometry g(rtcNewGeometry(device->get(), RTC_GEOMETRY_TYPE_USER));
   rtcSetGeometryUserPrimitiveCount(g.get(), unsigned(group.members.size()));
   rtcSetGeometryUserData(g.get(), &group);
@@ -185,12 +261,11 @@ void Tree::build(const std::vector<Item>& items, const Tree* before) {
   Impl& t = *impl_;
   t.items = &items;
   t.setFlags(t.scene.get());
-  for (Group& g : t.groups) g.items = &items;
   for (int k = 0; k < int(items.size()); ++k) {
     const Item& item = items[k];
     if (!item.triangles) {
       const bool finite = !item.bounds.isInfinite();
-      (finite ? t.groups[item.placement.translucent].members : t.unbounded).push_back(k);
+      (finite ? t.groups[maskOf(item)].members : t.unbounded).push_back(k);
     } else if (item.triangles->size() == 0) {
       continue;
     } else if (item.baked) {
@@ -203,8 +278,10 @@ void Tree::build(const std::vector<Item>& items, const Tree* before) {
       t.addInstance(mesh->scene.get(), item, k);
     }
   }
-  t.addGroup(t.groups[0], kOpaque);
-  t.addGroup(t.groups[1], kTranslucent);
+  for (auto& [mask, group] : t.groups) {
+    group.items = &items;
+    t.addGroup(group, mask);
+  }
   rtcCommitScene(t.scene.get());
   check(t.device->get(), "building the tree");
 }
@@ -235,7 +312,9 @@ bool Tree::closest(const Ray& ray, unsigned mask, TreeHit& hit) const noexcept {
     }
     found = true;
   }
-  if (found) hit.item = query.item, hit.primitive = query.hit.part, hit.t = query.hit.t;
+  if (found)
+    hit.item = query.item, hit.primitive = query.hit.part, hit.t = query.hit.t,
+    hit.b = query.hit.uv;
   return found;
 }
 
@@ -253,6 +332,29 @@ bool Tree::occluded(const Ray& ray, unsigned mask) const noexcept {
   fillRay(r, ray, mask);
   embree::occluded(t.scene.get(), r, query.context);
   return r.tfar < 0;
+}
+
+bool Tree::gather(const Ray& ray, unsigned mask, Real from, Layers& layers) const noexcept {
+  const Impl& t = *impl_;
+  for (const int k : t.unbounded) {
+    const Item& item = (*t.items)[k];
+    if (!(maskOf(item) & mask)) continue;
+    if (item.placement.translucent)
+      gatherShape(item, k, ray, layers);
+    else if (item.placement.shape->intersect(item.place.object(ray)))
+      return false;
+  }
+  Query query;
+  query.ray = &ray;
+  query.items = t.items;
+  query.itemOfGeometry = &t.itemOfGeometry;
+  query.layers = &layers;
+  embree::initialise(query.context);
+  RTCRay r;
+  fillRay(r, ray, mask);
+  r.tnear = std::max(r.tnear, float(from) * (1 - 4 * std::numeric_limits<float>::epsilon()));
+  embree::occluded(t.scene.get(), r, query.context);
+  return !(r.tfar < 0);
 }
 
 }  // namespace vestige

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <map>
+#include <tuple>
 
 #include "engine/trace/embree.h"
 #include "engine/trace/patches.h"
@@ -20,8 +21,23 @@ constexpr Real kInside = 32 * Real(std::numeric_limits<double>::epsilon());
 /// Triangles are met in float, whatever Real is.
 constexpr Real kFloat = std::numeric_limits<float>::epsilon();
 
-/// Shadow rays pass no more layers than this.
-constexpr int kMostLayers = 64;
+/// What many layers let through. In double, so that a thousand thin ones keep their digits.
+struct Product {
+  double r = 1, g = 1, b = 1;
+  void multiply(Rgb c) noexcept {
+    r *= double(c.r);
+    g *= double(c.g);
+    b *= double(c.b);
+  }
+  Rgb rgb() const noexcept { return {Real(r), Real(g), Real(b)}; }
+};
+
+Rgb clampedShare(Rgb c) noexcept {
+  const auto share = [](Real x) { return std::clamp(x, Real(0), Real(1)); };
+  return {share(c.r), share(c.g), share(c.b)};
+}
+
+bool isLess(Rgb a, Rgb b) noexcept { return std::tie(a.r, a.g, a.b) < std::tie(b.r, b.g, b.b); }
 
 /// Into the triangle: rounding leaves it by a little.
 Vec2 clampBarycentric(Vec2 b) noexcept {
@@ -66,7 +82,7 @@ bool isSame(const TriangleMesh& a, const TriangleMesh& b) noexcept {
 /// Of all but the light. A mesh without a shape, that of a light, is made anew by each scene.
 bool isSamePlace(const Placement& a, const Placement& b) noexcept {
   if (a.shape != b.shape || a.object != b.object || a.closed != b.closed ||
-      a.translucent != b.translucent || !isSame(a.toWorld, b.toWorld))
+      a.translucent != b.translucent || a.visibleTo != b.visibleTo || !isSame(a.toWorld, b.toWorld))
     return false;
   return a.mesh == b.mesh || (!a.shape && a.mesh && b.mesh && isSame(*a.mesh, *b.mesh));
 }
@@ -149,6 +165,19 @@ struct World::Impl {
     body->fill(s, ray, hit);
     s.light = lights[std::size_t(hit.item)];
   }
+  /// Takes in layers, by t. Surfaces at the same t have no order but that of their values.
+  void multiply(Product& product, const Ray& ray, std::span<const TreeHit> hits, Opacity opacity,
+                const void* context) const noexcept {
+    std::array<Rgb, Layers::kMost> shares;
+    Surface surface;
+    for (std::size_t first = 0, k = 0; k < hits.size(); ++k) {
+      fill(surface, ray, hits[k]);
+      shares[k] = grey(1) - clampedShare(opacity(context, surface));
+      if (k + 1 < hits.size() && hits[k + 1].t == hits[k].t) continue;
+      if (k > first) std::sort(shares.begin() + first, shares.begin() + k + 1, isLess);
+      for (; first <= k; ++first) product.multiply(shares[first]);
+    }
+  }
 };
 
 void World::Body::fillTriangle(Surface& s, const Item& item, const Ray& ray,
@@ -169,7 +198,7 @@ void World::Body::fillTriangle(Surface& s, const Item& item, const Ray& ray,
 void World::Body::fillShape(Surface& s, const Item& item, const Ray& ray,
                             const TreeHit& hit) const noexcept {
   const Vec3 near = item.place.object(ray).at(hit.t);
-  const SurfacePoint local = item.placement.shape->surface(near, hit.primitive);
+  const SurfacePoint local = item.placement.shape->surface(near, {hit.t, hit.primitive, hit.b});
   static_cast<SurfacePoint&>(s) = item.place.world(local);
   s.distance = hit.t;
   s.patchUv = s.uv;
@@ -186,6 +215,7 @@ void World::Body::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noe
   s.closed = item.placement.closed;
   s.primitive = hit.primitive;
   s.patch = patches.index(hit.item, hit.primitive);
+  s.time = ray.time;
 }
 
 World::World() : impl_(std::make_unique<Impl>()) {}
@@ -228,27 +258,25 @@ Real World::patchArea(int patch, Vec2 low, Vec2 high) const noexcept {
 
 bool World::intersect(const Ray& ray, Surface& surface) const noexcept {
   TreeHit hit;
-  if (!impl_->body || !impl_->body->tree.closest(ray, kEverything, hit)) return false;
+  if (!impl_->body || !impl_->body->tree.closest(ray, everything(ray.kind), hit)) return false;
   impl_->fill(surface, ray, hit);
   return true;
 }
 
-Real World::transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept {
-  if (!impl_->body || !(ray.tMin < ray.tMax)) return 1;
-  if (impl_->body->tree.occluded(ray, kOpaque)) return 0;
-  if (!impl_->body->translucent) return 1;
-  Real left = 1;
-  Ray rest = ray;
-  for (int layer = 0;; ++layer) {
-    TreeHit hit;
-    if (!impl_->body->tree.closest(rest, kTranslucent, hit)) return left;
-    if (layer == kMostLayers) return 0;
-    Surface surface;
-    impl_->fill(surface, ray, hit);
-    left *= 1 - std::clamp(opacity(context, surface), Real(0), Real(1));
-    if (!(left > 0)) return 0;
-    // The same ray meets the same surface at the same t again: just past it.
-    rest.tMin = hit.t + 4 * kFloat * std::abs(hit.t) + std::numeric_limits<float>::min();
+Rgb World::transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept {
+  if (!impl_->body || !(ray.tMin < ray.tMax)) return grey(1);
+  const Tree& tree = impl_->body->tree;
+  constexpr RayKind kind = RayKind::shadow;
+  if (!impl_->body->translucent) return grey(tree.occluded(ray, opaque(kind)) ? 0 : 1);
+  Layers layers;
+  if (!tree.gather(ray, everything(kind), ray.tMin, layers)) return {};
+  Product product;
+  for (;;) {
+    layers.settle();
+    impl_->multiply(product, ray, layers.hits(), opacity, context);
+    if (!layers.isCut() || isBlack(product.rgb())) return product.rgb();
+    const Real from = layers.goOn();
+    tree.gather(ray, translucent(kind), from, layers);
   }
 }
 

@@ -21,6 +21,7 @@ struct Placement {
   bool closed = false;
   /// Whether the surface may let light through: then transmittance() asks `opacity`.
   bool translucent = false;
+  RayKind visibleTo = RayKind::any;  ///< kinds of rays that meet it
 };
 
 class World {
@@ -51,10 +52,10 @@ class World {
     return result;
   }
 
-  /// Product of 1 - opacity(surface) over the surfaces in (tMin, tMax); 0 at the first opaque one
-  /// and behind more than 64 layers.
-  using Opacity = Real (*)(const void* context, const Surface& surface);
-  Real transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept;
+  /// Product of 1 - opacity(surface) over the surfaces in (tMin, tMax) that shadow rays meet; black
+  /// behind an opaque one. The same to the bit in whatever order the placements were added.
+  using Opacity = Rgb (*)(const void* context, const Surface& surface);
+  Rgb transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept;
 
   /// Of everything finite; empty if there is nothing.
   Bounds bounds() const noexcept;

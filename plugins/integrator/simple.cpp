@@ -57,10 +57,11 @@ class Simple final : public Integrator {
       }
       p.radiance += p.throughput * metLight(c.scene, p.s, p.drawn);
       c.scene.shade(p.s, -p.ray.direction, {}, p.inputs, p.x);
-      const LayerEvent event = meetLayer(c.sampler, vertex, layer, c.sampler.index(), p.x);
-      p.throughput *= event.weight;
-      if (!event.passes) return true;
-      p.ray = spawnRay(p.s, p.ray.direction);
+      const Passage passage =
+          meetLayer(c.sampler, vertex, layer, c.sampler.index(), p.x.opacity, p.throughput);
+      p.throughput *= passage.weight;
+      if (passage.stays) return true;
+      p.ray = spawnRay(p.s, p.ray.direction, p.ray.kind);
     }
     p.radiance = kEndless;
     return false;
@@ -75,7 +76,7 @@ class Simple final : public Integrator {
     if (vertex == 0 && c.aovs) c.aovs->albedo = next->local.weight;
     p.throughput *= next->weight;
     p.drawn = {receiverAt(p.s, p.x), next->local.specular ? kInfinity : next->local.pdf};
-    p.ray = spawnRay(p.s, next->toNext);
+    p.ray = spawnRay(p.s, next->toNext, kindOf(next->local));
     if (vertex + 1 < kRouletteFrom) return true;
     const Real survival = survivalProbability(p.throughput);
     p.throughput = p.throughput / survival;

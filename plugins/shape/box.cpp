@@ -35,27 +35,21 @@ class Box final : public Shape {
   Bounds bounds() const noexcept override { return b_; }
 
   std::optional<ShapeHit> intersect(const Ray& ray) const noexcept override {
-    double in = -std::numeric_limits<double>::infinity(), out = -in;
-    int inFace = 0, outFace = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double o = ray.origin[k], d = ray.direction[k];
-      if (d == 0) {
-        if (o < b_.low[k] || o > b_.high[k]) return std::nullopt;
-        continue;
-      }
-      const bool up = d > 0;
-      const double a = ((up ? b_.low[k] : b_.high[k]) - o) / d;
-      const double b = ((up ? b_.high[k] : b_.low[k]) - o) / d;
-      if (a > in) in = a, inFace = 2 * k + !up;
-      if (b < out) out = b, outFace = 2 * k + up;
-    }
-    if (!(in <= out)) return std::nullopt;
-    if (exact::within(in, ray)) return ShapeHit{Real(in), inFace};
-    if (exact::within(out, ray)) return ShapeHit{Real(out), outFace};
+    const std::optional<Chord> c = chord(ray);
+    if (!c) return std::nullopt;
+    if (exact::within(c->in, ray)) return ShapeHit{Real(c->in), c->inFace};
+    if (exact::within(c->out, ray)) return ShapeHit{Real(c->out), c->outFace};
     return std::nullopt;
   }
+  int crossings(const Ray& ray, std::span<Crossing> found) const noexcept override {
+    const std::optional<Chord> c = chord(ray);
+    if (!c) return 0;
+    return exact::interval({Real(c->in), c->inFace}, c->in, {Real(c->out), c->outFace}, c->out, ray,
+                           found);
+  }
 
-  SurfacePoint surface(Vec3 near, int face) const noexcept override {
+  SurfacePoint surface(Vec3 near, const ShapeHit& hit) const noexcept override {
+    const int face = hit.part;
     const Face f = faceOf(face);
     const auto part = [&](int k, bool back) {
       const Real x = std::clamp((near[k] - b_.low[k]) / b_.size()[k], Real(0), Real(1));
@@ -96,6 +90,30 @@ class Box final : public Shape {
   }
 
  private:
+  /// The part of a ray's line that is inside, by t, and the faces at its ends.
+  struct Chord {
+    double in, out;
+    int inFace, outFace;
+  };
+  std::optional<Chord> chord(const Ray& ray) const noexcept {
+    double in = -std::numeric_limits<double>::infinity(), out = -in;
+    int inFace = 0, outFace = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double o = ray.origin[k], d = ray.direction[k];
+      if (d == 0) {
+        if (o < b_.low[k] || o > b_.high[k]) return std::nullopt;
+        continue;
+      }
+      const bool up = d > 0;
+      const double a = ((up ? b_.low[k] : b_.high[k]) - o) / d;
+      const double b = ((up ? b_.high[k] : b_.low[k]) - o) / d;
+      if (a > in) in = a, inFace = 2 * k + !up;
+      if (b < out) out = b, outFace = 2 * k + up;
+    }
+    if (!(in <= out)) return std::nullopt;
+    return Chord{in, out, inFace, outFace};
+  }
+
   /// Face 2 k is the low one of axis k, 2 k + 1 the high one.
   struct Face {
     int axis, u, v;

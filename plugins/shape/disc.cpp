@@ -47,7 +47,9 @@ class Disc final : public Shape {
     return ShapeHit{Real(t)};
   }
 
-  SurfacePoint surface(Vec3 near, int) const noexcept override { return ring_.near(near); }
+  SurfacePoint surface(Vec3 near, const ShapeHit&) const noexcept override {
+    return ring_.near(near);
+  }
   bool isClosed() const noexcept override { return false; }
   Real area() const noexcept override { return Real(ring_.area()); }
   AreaSample samplePoint(Vec2 u) const noexcept override { return ring_.sample(u); }

@@ -27,6 +27,15 @@ inline constexpr double kPi = 3.14159265358979323846;
 
 inline bool within(double t, const Ray& ray) noexcept { return t > ray.tMin && t < ray.tMax; }
 
+/// The meetings of a ray with a solid that is all between two points of its line.
+inline int interval(const ShapeHit& in, double tIn, const ShapeHit& out, double tOut,
+                    const Ray& ray, std::span<Crossing> found) noexcept {
+  std::size_t n = 0;
+  if (within(tIn, ray) && n < found.size()) found[n++] = {in, true};
+  if (within(tOut, ray) && n < found.size()) found[n++] = {out, false};
+  return int(n);
+}
+
 /// Real roots of a t^2 + 2 b t + c, ascending; count of them (0, 1 for a == 0, or 2).
 inline int quadratic(double a, double b, double c, double roots[2]) noexcept {
   if (a == 0) {

@@ -15,32 +15,28 @@ class Frustum : public Shape {
   }
 
   std::optional<ShapeHit> intersect(const Ray& ray) const noexcept final {
-    const exact::V o = axes_.local(exact::V(ray.origin) - base_), d = axes_.local(ray.direction);
-    double best = std::numeric_limits<double>::infinity();
-    int face = 0;
-    const auto offer = [&](double t, int f) {
-      if (exact::within(t, ray) && t < best) best = t, face = f;
-    };
-    // x^2 + y^2 = (radius at z)^2
-    const double r = ra_ + slope_ * o.z, dr = slope_ * d.z;
-    double roots[2];
-    const int n = exact::quadratic(d.x * d.x + d.y * d.y - dr * dr, d.x * o.x + d.y * o.y - r * dr,
-                                   o.x * o.x + o.y * o.y - r * r, roots);
-    for (int k = 0; k < n; ++k) {
-      const double z = o.z + roots[k] * d.z;
-      if (z >= 0 && z <= height_) offer(roots[k], 0);
-    }
-    for (int k = 0; k < lids_ && d.z != 0; ++k) {
-      const bool far = lidEnd_[k] == 1;
-      const double t = ((far ? height_ : 0) - o.z) / d.z, x = o.x + t * d.x, y = o.y + t * d.y;
-      const double limit = far ? rb_ : ra_;
-      if (x * x + y * y <= limit * limit) offer(t, k + 1);
-    }
-    if (best == std::numeric_limits<double>::infinity()) return std::nullopt;
-    return ShapeHit{Real(best), face};
+    const Meetings all = meetings(ray);
+    const Meetings::One* best = nullptr;
+    for (int k = 0; k < all.count; ++k)
+      if (exact::within(all.list[k].t, ray) && (!best || all.list[k].t < best->t))
+        best = &all.list[k];
+    if (!best) return std::nullopt;
+    return ShapeHit{Real(best->t), best->face};
   }
 
-  SurfacePoint surface(Vec3 near, int face) const noexcept final {
+  int crossings(const Ray& ray, std::span<Crossing> found) const noexcept final {
+    if (open_) return Shape::crossings(ray, found);
+    // Convex: the nearest and the farthest meeting, whatever an edge adds between.
+    const Meetings all = meetings(ray);
+    if (all.count < 2) return 0;
+    const auto byT = [](const Meetings::One& a, const Meetings::One& b) { return a.t < b.t; };
+    const auto [in, out] = std::minmax_element(all.list, all.list + all.count, byT);
+    return exact::interval({Real(in->t), in->face}, in->t, {Real(out->t), out->face}, out->t, ray,
+                           found);
+  }
+
+  SurfacePoint surface(Vec3 near, const ShapeHit& hit) const noexcept final {
+    const int face = hit.part;
     if (face > 0) return ends_[lidEnd_[face - 1]].near(near);
     const exact::V q = axes_.local(exact::V(near) - base_);
     const double r = std::hypot(q.x, q.y);
@@ -88,6 +84,36 @@ class Frustum : public Shape {
   }
 
  private:
+  /// Where a ray's line meets the side and the lids, in no order.
+  struct Meetings {
+    struct One {
+      double t;
+      int face;
+    };
+    One list[4];
+    int count = 0;
+  };
+  Meetings meetings(const Ray& ray) const noexcept {
+    const exact::V o = axes_.local(exact::V(ray.origin) - base_), d = axes_.local(ray.direction);
+    Meetings all;
+    // x^2 + y^2 = (radius at z)^2
+    const double r = ra_ + slope_ * o.z, dr = slope_ * d.z;
+    double roots[2];
+    const int n = exact::quadratic(d.x * d.x + d.y * d.y - dr * dr, d.x * o.x + d.y * o.y - r * dr,
+                                   o.x * o.x + o.y * o.y - r * r, roots);
+    for (int k = 0; k < n; ++k) {
+      const double z = o.z + roots[k] * d.z;
+      if (z >= 0 && z <= height_) all.list[all.count++] = {roots[k], 0};
+    }
+    for (int k = 0; k < lids_ && d.z != 0; ++k) {
+      const bool far = lidEnd_[k] == 1;
+      const double t = ((far ? height_ : 0) - o.z) / d.z, x = o.x + t * d.x, y = o.y + t * d.y;
+      const double limit = far ? rb_ : ra_;
+      if (x * x + y * y <= limit * limit) all.list[all.count++] = {t, k + 1};
+    }
+    return all;
+  }
+
   SurfacePoint side(double c, double s, double z) const noexcept {
     const double r = std::max(0.0, ra_ + slope_ * z);
     SurfacePoint p;

@@ -41,14 +41,10 @@ class Plane final : public Shape {
     return ShapeHit{Real(t)};
   }
 
-  SurfacePoint surface(Vec3 near, int) const noexcept override {
+  SurfacePoint surface(Vec3 near, const ShapeHit&) const noexcept override {
     const V p = axes_.local(near);
-    SurfacePoint s;
-    s.position = axes_.world({p.x, p.y, d_});
-    s.geometricNormal = s.normal = axes_.n;
-    s.uv = {Real(p.x), Real(p.y)};
-    s.dPdu = axes_.s, s.dPdv = axes_.t;
-    return s;
+    return SurfacePoint::flat(axes_.world({p.x, p.y, d_}), axes_.n, {Real(p.x), Real(p.y)}, axes_.s,
+                              axes_.t);
   }
 
   bool isClosed() const noexcept override { return true; }

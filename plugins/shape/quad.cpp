@@ -52,7 +52,7 @@ class Quad final : public Shape {
     return ShapeHit{Real(t)};
   }
 
-  SurfacePoint surface(Vec3 near, int) const noexcept override {
+  SurfacePoint surface(Vec3 near, const ShapeHit&) const noexcept override {
     const V p = V(near) - V(corner_);
     return at({Real(std::clamp(dot(byU_, p), 0.0, 1.0)), Real(std::clamp(dot(byV_, p), 0.0, 1.0))},
               0);
@@ -66,12 +66,8 @@ class Quad final : public Shape {
 
   int faces() const noexcept override { return 1; }
   SurfacePoint at(Vec2 uv, int) const noexcept override {
-    SurfacePoint s;
-    s.position = V(corner_) + double(uv.x) * V(edge1_) + double(uv.y) * V(edge2_);
-    s.geometricNormal = s.normal = n_;
-    s.uv = uv;
-    s.dPdu = edge1_, s.dPdv = edge2_;
-    return s;
+    const V p = V(corner_) + double(uv.x) * V(edge1_) + double(uv.y) * V(edge2_);
+    return SurfacePoint::flat(p, n_, uv, edge1_, edge2_);
   }
 
  private:

@@ -36,20 +36,19 @@ class Sphere final : public Shape {
   }
 
   std::optional<ShapeHit> intersect(const Ray& ray) const noexcept override {
-    const V d(ray.direction), o = V(ray.origin) - V(c_);
-    const double a = dot(d, d), nearest = -dot(o, d) / a;
-    // From the point of the ray nearest to the centre: no large squares are subtracted
-    // [Haines et al. 2019, Ray Tracing Gems 7].
-    const V p = o + nearest * d;
-    const double half2 = (double(r_) * r_ - dot(p, p)) / a;
-    if (!(half2 >= 0)) return std::nullopt;
-    const double half = std::sqrt(half2);
-    for (const double t : {nearest - half, nearest + half})
+    const std::optional<Chord> c = chord(ray);
+    if (!c) return std::nullopt;
+    for (const double t : {c->in, c->out})
       if (exact::within(t, ray)) return ShapeHit{Real(t)};
     return std::nullopt;
   }
+  int crossings(const Ray& ray, std::span<Crossing> found) const noexcept override {
+    const std::optional<Chord> c = chord(ray);
+    if (!c) return 0;
+    return exact::interval({Real(c->in)}, c->in, {Real(c->out)}, c->out, ray, found);
+  }
 
-  SurfacePoint surface(Vec3 near, int) const noexcept override {
+  SurfacePoint surface(Vec3 near, const ShapeHit&) const noexcept override {
     const V away = V(near) - V(c_);
     const double l = length(away);
     return point(l > 0 ? (1 / l) * away : V{0, 1, 0});
@@ -103,6 +102,22 @@ class Sphere final : public Shape {
   }
 
  private:
+  /// The part of a ray's line that is inside, by t.
+  struct Chord {
+    double in, out;
+  };
+  std::optional<Chord> chord(const Ray& ray) const noexcept {
+    const V d(ray.direction), o = V(ray.origin) - V(c_);
+    const double a = dot(d, d), nearest = -dot(o, d) / a;
+    // From the point of the ray nearest to the centre: no large squares are subtracted
+    // [Haines et al. 2019, Ray Tracing Gems 7].
+    const V p = o + nearest * d;
+    const double half2 = (double(r_) * r_ - dot(p, p)) / a;
+    if (!(half2 >= 0)) return std::nullopt;
+    const double half = std::sqrt(half2);
+    return Chord{nearest - half, nearest + half};
+  }
+
   struct Cone {
     Vec3 axis;        ///< unit, from the eye to the centre
     double distance;  ///< to the centre

@@ -88,29 +88,20 @@ class Torus final : public Shape {
   }
 
   std::optional<ShapeHit> intersect(const Ray& ray) const noexcept override {
-    // Around the point nearest to the centre, in units of length, where the numbers are small.
-    const V o(ray.origin), all(ray.direction);
-    const double scale = length(all);
-    const V d = (1 / scale) * all;
-    const double shift = -dot(o, d);
-    const V p = o + shift * d;
-    const double chord2 = (R_ + r_) * (R_ + r_) - dot(p, p);  // of the sphere around it
-    if (!(chord2 > 0)) return std::nullopt;
-    const double half = std::sqrt(chord2);
-    // (t^2 + m)^2 - 4 R^2 ((px + t dx)^2 + (pz + t dz)^2), m = p.p + R^2 - r^2, as p.d = 0
-    const double m = dot(p, p) + R_ * R_ - r_ * r_, k = 4 * R_ * R_;
-    const double c[5] = {m * m - k * (p.x * p.x + p.z * p.z), -2 * k * (p.x * d.x + p.z * d.z),
-                         2 * m - k * (d.x * d.x + d.z * d.z), 0, 1};
-    double roots[4];
-    const int n = rootsBetween(c, 4, -half - 1e-9 * R_, half + 1e-9 * R_, roots);
-    for (int i = 0; i < n; ++i) {
-      const double t = (roots[i] + shift) / scale;
-      if (exact::within(t, ray)) return ShapeHit{Real(t)};
-    }
+    const Roots all = roots(ray);
+    for (int i = 0; i < all.count; ++i)
+      if (exact::within(all.t[i], ray)) return ShapeHit{Real(all.t[i])};
     return std::nullopt;
   }
+  int crossings(const Ray& ray, std::span<Crossing> found) const noexcept override {
+    const Roots all = roots(ray);
+    std::size_t n = 0;
+    for (int i = 0; i < all.count && n < found.size(); ++i)  // the line begins outside
+      if (exact::within(all.t[i], ray)) found[n++] = {{Real(all.t[i])}, i % 2 == 0};
+    return int(n);
+  }
 
-  SurfacePoint surface(Vec3 near, int) const noexcept override {
+  SurfacePoint surface(Vec3 near, const ShapeHit&) const noexcept override {
     const V p(near);
     const double ring = std::hypot(p.x, p.z), x = ring - R_, tube = std::hypot(x, p.y);
     if (!(ring > 0) || !(tube > 0)) return point(1, 0, 1, 0);
@@ -146,6 +137,31 @@ class Torus final : public Shape {
   }
 
  private:
+  /// All meetings of a ray's line, ascending.
+  struct Roots {
+    double t[4];
+    int count = 0;
+  };
+  Roots roots(const Ray& ray) const noexcept {
+    // Around the point nearest to the centre, in units of length, where the numbers are small.
+    const V o(ray.origin), all(ray.direction);
+    const double scale = length(all);
+    const V d = (1 / scale) * all;
+    const double shift = -dot(o, d);
+    const V p = o + shift * d;
+    const double chord2 = (R_ + r_) * (R_ + r_) - dot(p, p);  // of the sphere around it
+    if (!(chord2 > 0)) return {};
+    const double half = std::sqrt(chord2);
+    // (t^2 + m)^2 - 4 R^2 ((px + t dx)^2 + (pz + t dz)^2), m = p.p + R^2 - r^2, as p.d = 0
+    const double m = dot(p, p) + R_ * R_ - r_ * r_, k = 4 * R_ * R_;
+    const double c[5] = {m * m - k * (p.x * p.x + p.z * p.z), -2 * k * (p.x * d.x + p.z * d.z),
+                         2 * m - k * (d.x * d.x + d.z * d.z), 0, 1};
+    Roots r;
+    r.count = rootsBetween(c, 4, -half - 1e-9 * R_, half + 1e-9 * R_, r.t);
+    for (int i = 0; i < r.count; ++i) r.t[i] = (r.t[i] + shift) / scale;
+    return r;
+  }
+
   double area64() const noexcept { return 4 * exact::kPi * exact::kPi * R_ * r_; }
 
   /// At angle a around the axis and b around the tube, by their cosines and sines.

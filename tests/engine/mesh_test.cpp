@@ -193,6 +193,30 @@ TEST_CASE("an STL file is flat unless it is asked to be smooth", "[mesh]") {
   CHECK(sharp->parts()->front().mesh.positions.size() == 6);
 }
 
+TEST_CASE("a glTF mask is a cut-out at its cutoff", "[mesh]") {
+  const Folder folder;
+  const float data[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  folder.write("t.bin", std::string(reinterpret_cast<const char*>(data), sizeof data));
+  const auto cutoff = [&](const std::string& mode) {
+    const std::string file = folder.write("t.gltf", R"({"asset":{"version":"2.0"},
+      "buffers":[{"uri":"t.bin","byteLength":36}],
+      "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36}],
+      "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+        "min":[0,0,0],"max":[1,1,0]}],
+      "materials":[{)" + mode + R"("pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.3]}}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+      "nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})");
+    FakeHost host;
+    const auto shape = load(file, host);
+    const Value* v = shape->parts()->front().brdf->find("opacity_cutoff");
+    return v ? v->v[0] : -1;
+  };
+  CHECK(cutoff(R"("alphaMode":"MASK","alphaCutoff":0.2,)") == Approx(0.2));
+  CHECK(cutoff(R"("alphaMode":"MASK",)") == Approx(0.5));  // glTF 2.0, 3.9.4
+  CHECK(cutoff(R"("alphaMode":"BLEND",)") == -1);
+  CHECK(cutoff("") == -1);
+}
+
 TEST_CASE("a glTF file brings its nodes, materials and textures", "[mesh]") {
   const Folder folder;
   folder.write("base colour.png", kPixel), folder.write("orm.png", kPixel);
@@ -246,6 +270,7 @@ TEST_CASE("a glTF file brings its nodes, materials and textures", "[mesh]") {
   CHECK(setting(image("metallic"), "scale_value").v[0] == Approx(0.9));
   CHECK(setting(image("opacity"), "channel").text == "a");
   CHECK(setting(image("opacity"), "scale_value").v[0] == Approx(0.8));
+  CHECK(!b.find("opacity_cutoff"));
   CHECK(setting(image("normal_map"), "color_space").text == "raw");
   CHECK(part.emission.v[1] == Approx(0.5));
   const World w = worldOf(shape);

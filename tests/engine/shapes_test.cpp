@@ -65,7 +65,7 @@ TEST_CASE("shapes meet rays where small steps along them do", "[shape]") {
       if (!hit) continue;
       const Vec3 p = ray.at(hit->t);
       CHECK(std::abs(solid.side(p)) < (kDouble ? 1e-10 : 2e-5));
-      const SurfacePoint s = shape->surface(p, hit->part);
+      const SurfacePoint s = shape->surface(p, *hit);
       CHECK(length(s.position - p) < (kDouble ? 1e-10 : 2e-5));
       Ray rest = ray;  // limits hold
       rest.tMax = hit->t * Real(0.999);
@@ -216,7 +216,7 @@ TEST_CASE("a face's point at uv is the point that has this uv", "[shape]") {
     for (int k = 0; k < 200; ++k) {
       const Vec2 uv{Real(random.between(0.01, 0.99)), Real(random.between(0.05, 0.95))};
       const int face = int(random.number() * shape->faces());
-      const SurfacePoint p = shape->at(uv, face), s = shape->surface(p.position, face);
+      const SurfacePoint p = shape->at(uv, face), s = shape->surface(p.position, {0, face});
       CHECK(length(s.position - p.position) < 1e-5);
       CHECK(s.uv.x == Approx(uv.x).margin(1e-4));
       CHECK(s.uv.y == Approx(uv.y).margin(1e-4));
@@ -234,8 +234,8 @@ TEST_CASE("poles keep a frame", "[shape]") {
                                        {"base_radius", number(1)},
                                        {"cap", vec(0, 1, 0)},
                                        {"cap_radius", number(0)}});
-  for (const SurfacePoint& s : {sphere->surface({0, 2, 0}, 0), sphere->surface({0, -2, 0}, 0),
-                                disc->surface({0, 0, 0}, 0), cone->surface({0, 1, 0}, 0)}) {
+  for (const SurfacePoint& s : {sphere->surface({0, 2, 0}, {}), sphere->surface({0, -2, 0}, {}),
+                                disc->surface({0, 0, 0}, {}), cone->surface({0, 1, 0}, {})}) {
     CHECK(isFinite(s.dPdu));
     CHECK(isFinite(s.normal));
     CHECK(length(cross(normalize(s.dPdu), normalize(s.dPdv))) > 0.5);
@@ -244,7 +244,7 @@ TEST_CASE("poles keep a frame", "[shape]") {
 
 TEST_CASE("uv is where the language says", "[shape]") {
   const auto uv = [](const std::shared_ptr<Shape>& s, Vec3 p, int part) {
-    return s->surface(p, part).uv;
+    return s->surface(p, {0, part}).uv;
   };
   const auto sphere = makeShape("sphere", {{"centre", vec(0, 0, 0)}, {"radius", number(1)}});
   CHECK(uv(sphere, {0, 0, 1}, 0).x == Approx(0.25));
@@ -256,12 +256,12 @@ TEST_CASE("uv is where the language says", "[shape]") {
   CHECK(uv(cylinder, {0, Real(2.5), 1}, 0).x == Approx(0.25));
   CHECK(uv(cylinder, {0, Real(2.5), 1}, 0).y == Approx(0.75));
   const auto plane = makeShape("plane", {{"normal", vec(0, 3, 0)}, {"distance", number(2)}});
-  CHECK(plane->surface({5, 2, 7}, 0).position.y == Approx(2));
+  CHECK(plane->surface({5, 2, 7}, {}).position.y == Approx(2));
   CHECK(uv(plane, {5, 2, 7}, 0).x == Approx(5));
   CHECK(uv(plane, {5, 2, 7}, 0).y == Approx(7));
   const auto quad = makeShape(
       "quad", {{"corner", vec(-1, 5, -1)}, {"edge1", vec(2, 0, 0)}, {"edge2", vec(0, 0, 2)}});
-  CHECK(quad->surface({0, 5, 0}, 0).geometricNormal.y == Approx(-1));  // LANGUAGE: shines down
+  CHECK(quad->surface({0, 5, 0}, {}).geometricNormal.y == Approx(-1));  // LANGUAGE: shines down
   // A box's face read from outside: the right-hand end of the front face is at +x, of the back
   // face at -x.
   const auto box = makeShape("box", {{"corner1", vec(0, 0, 0)}, {"corner2", vec(1, 1, 1)}});

@@ -21,12 +21,18 @@ struct DrawnRay {
   bool isUnrivalled() const noexcept { return !(density < kInfinity); }
 };
 
+/// Whether only shadow rays bring the light that a ray met; `rival`: their density.
+inline bool isLeftToShadowRays(const SceneView& scene, Real rival) noexcept {
+  return rival > 0 && !scene.shadowsMatchIndirect();
+}
+
 /// The radiance of a light that the ray met, weighted.
 inline Rgb metLight(const SceneView& scene, const Surface& s, const DrawnRay& ray) noexcept {
   if (s.light < 0) return {};
   const Rgb radiance = scene.emitted(s, ray.from);
   if (ray.isUnrivalled()) return radiance;
   const Real rival = ray.lightSamples * scene.lightPdf(s, ray.from);
+  if (isLeftToShadowRays(scene, rival)) return {};
   return powerHeuristic(ray.density, rival) * radiance;
 }
 
@@ -48,6 +54,7 @@ inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 directio
       continue;
     }
     const Real rival = ray.lightSamples * scene.lightChance(i, ray.from) * light.pdf(ray.from, hit);
+    if (isLeftToShadowRays(scene, rival)) continue;
     sum += powerHeuristic(ray.density, rival) * radiance;
   }
   return sum;
@@ -85,13 +92,13 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
   const ScatterValue value = evaluateScatter(x, drawn.hit.toLight);
   if (isBlack(value.fCos) || isBlack(drawn.radiance)) return {};
   ++c.counters.shadowRays;
-  const Real visible = c.scene.transmittance(shadowRay(s, drawn.hit));
-  if (visible == 0) return {};
+  const Rgb visible = c.scene.transmittance(shadowRay(s, drawn.hit));
+  if (isBlack(visible)) return {};
   const Real density = towards.chance * drawn.pdf;
+  const bool isAlone = towards.light->traits().isDelta || !c.scene.shadowsMatchIndirect();
   const Real weight =
-      towards.light->traits().isDelta ? 1
-                                      : powerHeuristic(samples * density, scattered * value.pdf);
-  return (visible * weight / density) * value.fCos * drawn.radiance;
+      isAlone ? 1 : powerHeuristic(samples * density, scattered * value.pdf);
+  return (weight / density) * visible * value.fCos * drawn.radiance;
 }
 
 /// Next-event estimation: the mean of `samples` of these is the direct light.

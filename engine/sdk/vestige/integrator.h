@@ -36,6 +36,7 @@ struct Surface : SurfacePoint {
   Vec2 patchUv;         ///< [0,1]^2 in that patch
   Real offset = 0;      ///< how far a new ray starts off the surface, scene units
   bool closed = false;  ///< part of the boundary of a solid
+  Real time = 0;        ///< of the ray that met it
 };
 
 /// A surface with its material looked up: what an integrator scatters at. Copying is cheap; the
@@ -45,7 +46,7 @@ struct Interaction {
   ScatterPoint point;          ///< local view for the BRDF
   Frame frame;                 ///< shading frame: n faces toPrev, s along dP/du
   Vec3 geometricNormal;        ///< faces toPrev
-  Real opacity = 1;            ///< below 1 a path passes through with chance 1 - opacity
+  Rgb opacity{1, 1, 1};        ///< share that does not pass straight through: see drawPassage()
   Vec3 toPrev;                 ///< world
 };
 
@@ -78,9 +79,9 @@ class SceneView {
     return result;
   }
 
-  /// Share of light that gets from a surface along a direction to a distance (or out of the scene):
-  /// product of 1 - opacity, 0 behind more than 64 layers.
-  virtual Real transmittance(const Ray& ray) const noexcept = 0;
+  /// Share of light that gets along the ray: the product of 1 - opacity over all that shadow rays
+  /// meet, whatever the ray's own kind.
+  virtual Rgb transmittance(const Ray& ray) const noexcept = 0;
 
   /// Evaluates the material's inputs over the footprint, bends and maps the normal.
   virtual void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
@@ -91,8 +92,9 @@ class SceneView {
     shade(surface, toPrev, footprint, buffer, result);
     return result;
   }
-  /// Of all this only the opacity, [0, 1], looked up at a point.
-  virtual Real opacity(const Surface& surface) const noexcept = 0;
+  /// Of all this only the opacity, [0, 1]. It is looked up at a point, here and in shade(): paths
+  /// and shadow rays must see the same one.
+  virtual Rgb opacity(const Surface& surface) const noexcept = 0;
 
   /// What the surface emits towards a receiver; black if it is no light.
   virtual Rgb emitted(const Surface& surface, const Receiver& r) const noexcept = 0;
@@ -108,6 +110,9 @@ class SceneView {
   virtual std::optional<LightChoice> chooseLight(const Receiver& r, Real u) const noexcept = 0;
   /// Of that choice, [0,1].
   virtual Real lightChance(int light, const Receiver& r) const noexcept = 0;
+  /// Whether shadow rays meet just what indirect rays meet. If not, only shadow rays bring the
+  /// light of lights that are drawn: two strategies that see different scenes cannot be weighted.
+  virtual bool shadowsMatchIndirect() const noexcept { return true; }
   /// Indices into lights() of those at infinity.
   virtual std::span<const int> infiniteLights() const noexcept = 0;
 
@@ -138,9 +143,9 @@ class SceneView {
 
 /// A ray that leaves a surface, started off it on the side it goes to, so that rounding cannot hit
 /// the same surface again.
-inline Ray spawnRay(const Surface& s, Vec3 direction) noexcept {
+inline Ray spawnRay(const Surface& s, Vec3 direction, RayKind kind = RayKind::any) noexcept {
   const Real side = dot(direction, s.geometricNormal) < 0 ? Real(-1) : Real(1);
-  return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity};
+  return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity, s.time, kind};
 }
 /// From a surface to a point of a light. Both ends move off their surfaces, and the ray runs
 /// between the moved points: so neither surface hides the other, however flat the ray meets them.
@@ -162,6 +167,16 @@ inline Ray shadowRay(const Surface& s, Vec3 direction, Real distance) noexcept {
   Ray r = spawnRay(s, direction);
   if (std::isfinite(distance)) r.tMax = distance - 2 * s.offset - distance * Real(1e-5);
   return r;
+}
+
+/// The kind of a scattered ray: `indirect` just if a light is drawn against it.
+inline RayKind kindOf(const ScatterSample& s) noexcept {
+  if (!s.specular) return RayKind::indirect;
+  return s.toNext.z < 0 ? RayKind::refraction : RayKind::reflection;
+}
+
+inline bool isOpaque(Rgb opacity) noexcept {
+  return opacity.r >= 1 && opacity.g >= 1 && opacity.b >= 1;
 }
 
 /// Which quantity a path carries away from the sensor or the light: radiance is scaled by

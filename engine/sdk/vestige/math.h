@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace vestige {
@@ -265,10 +266,35 @@ struct Bounds {
   void add(const Bounds& b) noexcept { low = minimum(low, b.low), high = maximum(high, b.high); }
 };
 
+/// What a ray is traced for. Objects are visible to a set of kinds, which is a sum of them.
+enum class RayKind : std::uint8_t {
+  camera = 1,
+  shadow = 2,      ///< from a surface towards a light
+  reflection = 4,  ///< from a mirror: no light was drawn against it
+  refraction = 8,  ///< through smooth glass, likewise
+  indirect = 16,   ///< any other scattered ray; particles too
+  any = 31,        ///< as the kind of a ray: meets what is visible to any kind
+};
+inline constexpr unsigned bits(RayKind k) noexcept { return unsigned(k); }
+inline constexpr RayKind operator|(RayKind a, RayKind b) noexcept {
+  return RayKind(bits(a) | bits(b));
+}
+inline constexpr RayKind operator&(RayKind a, RayKind b) noexcept {
+  return RayKind(bits(a) & bits(b));
+}
+/// Whether two sets share a kind.
+inline constexpr bool shareKind(RayKind a, RayKind b) noexcept { return bits(a & b) != 0; }
+/// The kinds of `a` that are not in `b`.
+inline constexpr RayKind without(RayKind a, RayKind b) noexcept {
+  return RayKind(bits(a) & ~bits(b));
+}
+
 struct Ray {
   Vec3 origin;
   Vec3 direction;  ///< need not be unit where a shape is asked in its own space
   Real tMin = 0, tMax = kInfinity;
+  Real time = 0;  ///< [0,1), share of the shutter's opening that has passed
+  RayKind kind = RayKind::any;
   Vec3 at(Real t) const noexcept { return origin + t * direction; }
 };
 

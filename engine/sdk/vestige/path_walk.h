@@ -89,7 +89,7 @@ struct EyePath {
     flux *= next.local.weight;
     drawn.from = receiverAt(v.s, v.x);
     drawn.density = next.local.specular ? kInfinity : Real(siblings) * next.local.pdf;
-    ray = spawnRay(v.s, next.toNext);
+    ray = spawnRay(v.s, next.toNext, kindOf(next.local));
   }
 
   /// Russian roulette. False: the path ends.
@@ -122,13 +122,14 @@ struct WalkRules {
 
 /// Passes through the surface if chance says so. False: the path scatters there.
 inline bool passes(PathContext& c, EyePath& path, const Vertex& v, std::uint32_t layer) noexcept {
-  const LayerEvent event = meetLayer(c.sampler, path.vertex(), layer, path.stream.index, v.x);
-  path.chance(event.chance);
-  if (event.passes) path.report.end(v.s, v.x.toPrev, path.throughput, "pass", path.footprint);
-  path.throughput *= event.weight;
-  path.flux *= event.weight;
-  if (event.passes) path.ray = spawnRay(v.s, path.ray.direction);
-  return event.passes;
+  const Passage p = meetLayer(c.sampler, path.vertex(), layer, path.stream.index, v.x.opacity,
+                              path.throughput);
+  path.chance(p.chance);
+  if (!p.stays) path.report.end(v.s, v.x.toPrev, path.throughput, "pass", path.footprint);
+  path.throughput *= p.weight;
+  path.flux *= p.weight;
+  if (!p.stays) path.ray = spawnRay(v.s, path.ray.direction, path.ray.kind);
+  return !p.stays;
 }
 
 /// Radiance of the lights at infinity, for a ray that left the scene.
@@ -157,7 +158,7 @@ inline bool walk(PathContext& c, EyePath& path, Vertex& v, Rgb& radiance,
       lastSurface(c.scene, v.s, toPrev, v.x);
     else
       c.scene.shade(v.s, toPrev, regionAt(c.scene, v.s, path.footprint), v.inputs, v.x);
-    if (v.x.opacity >= 1 || !passes(c, path, v, layer)) return true;
+    if (isOpaque(v.x.opacity) || !passes(c, path, v, layer)) return true;
   }
   radiance = kEndless;
   return false;

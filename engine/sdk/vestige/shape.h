@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <vestige/inputs.h>
@@ -38,8 +39,15 @@ struct MeshPart {
 
 /// Where a ray meets an analytic shape.
 struct ShapeHit {
-  Real t;        ///< in lengths of ray.direction
+  Real t = 0;    ///< in lengths of ray.direction
   int part = 0;  ///< which face: lid, side, ...
+  Vec2 uv{};     ///< handed back to surface(); for shapes whose search finds it anyway
+};
+
+/// One of several meetings of a ray.
+struct Crossing {
+  ShapeHit hit;
+  bool enters = false;  ///< runs against the normal: into the solid, if the shape is closed
 };
 
 /// The surface at a point: position, normals, uv, and how position and normal move with uv.
@@ -53,6 +61,17 @@ struct SurfacePoint {
   /// Second derivatives of position, scene units per unit of uv squared: how the tangents turn in
   /// the surface as one walks on it. Zero on triangles and wherever uv is a straight grid.
   Vec3 dPduu, dPduv, dPdvv;
+
+  /// A point of a flat surface with straight uv: all other derivatives are zero.
+  static SurfacePoint flat(Vec3 position, Vec3 normal, Vec2 uv, Vec3 dPdu, Vec3 dPdv) noexcept {
+    SurfacePoint s;
+    s.position = position;
+    s.geometricNormal = s.normal = normal;
+    s.uv = uv;
+    s.dPdu = dPdu;
+    s.dPdv = dPdv;
+    return s;
+  }
 };
 
 /// A point drawn from the surface.
@@ -86,8 +105,15 @@ class Shape {
   /// within rounding; the engine then has set tMin.
   virtual std::optional<ShapeHit> intersect(const Ray& ray) const noexcept = 0;
 
-  /// The surface at a point that intersect() found (`near` lies on it within rounding).
-  virtual SurfacePoint surface(Vec3 near, int part) const noexcept = 0;
+  /// The surface at a point that intersect() or crossings() found (`near` lies on it within
+  /// rounding). hit.t means nothing here: the ray may have been in another space.
+  virtual SurfacePoint surface(Vec3 near, const ShapeHit& hit) const noexcept = 0;
+
+  /// Meetings with t in (ray.tMin, ray.tMax) in ascending order, the first being intersect()'s;
+  /// returns how many. More than `found` holds: its size, and the nearest ones. Along a line those
+  /// of a closed shape enter and leave in turn; a ray that touches it gives two or none. By
+  /// default: intersect() again and again, each time a few rounding steps further.
+  virtual int crossings(const Ray& ray, std::span<Crossing> found) const noexcept;
 
   /// Whether it bounds a solid: rays inside it see its back.
   virtual bool isClosed() const noexcept = 0;
@@ -117,6 +143,19 @@ class Shape {
   virtual const std::vector<MeshPart>* parts() const noexcept { return nullptr; }
 };
 
+inline int Shape::crossings(const Ray& ray, std::span<Crossing> found) const noexcept {
+  Ray rest = ray;
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    const std::optional<ShapeHit> hit = intersect(rest);
+    if (!hit) return int(n);
+    const SurfacePoint s = surface(rest.at(hit->t), *hit);
+    found[n] = {*hit, dot(rest.direction, s.geometricNormal) < 0};
+    rest.tMin = hit->t + 4 * std::numeric_limits<Real>::epsilon() * std::abs(hit->t);
+    rest.tMin = std::max(rest.tMin, std::nextafter(hit->t, kInfinity));
+  }
+  return int(found.size());
+}
+
 /// Base of a shape that is made of triangles.
 class MeshShape : public Shape {
  public:
@@ -125,7 +164,7 @@ class MeshShape : public Shape {
 
   Bounds bounds() const noexcept final { return {}; }
   std::optional<ShapeHit> intersect(const Ray&) const noexcept final { return std::nullopt; }
-  SurfacePoint surface(Vec3, int) const noexcept final { return {}; }
+  SurfacePoint surface(Vec3, const ShapeHit&) const noexcept final { return {}; }
   Real area() const noexcept final { return 0; }
   AreaSample samplePoint(Vec2) const noexcept final { return {}; }
 

@@ -132,12 +132,20 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
       hierarchy.deposit(placeOf(s, x.toPrev), areaOf(path, area),
                         inUnits(bending(x) * power, rounding));
     }
-    if (x.opacity < 1) {
-      const LayerEvent event = meetLayer(sampler, std::uint32_t(bounce), layer, index, x);
-      path.chance(event.chance);
-      if (event.passes) {
+    if (!isOpaque(x.opacity)) {
+      const Passage passage =
+          meetLayer(sampler, std::uint32_t(bounce), layer, index, x.opacity, power);
+      path.chance(passage.chance);
+      if (!(passage.weight == grey(1))) {
+        power *= passage.weight;
+        const Flux weighted = inUnits(power, rounding);
+        add(booking.gained, weighted);
+        add(booking.gained, carried, -1);
+        carried = weighted;
+      }
+      if (!passage.stays) {
         if (++layer == kMaxLayers) return add(booking.absorbed, carried);
-        ray = spawnRay(s, ray.direction);
+        ray = spawnRay(s, ray.direction, ray.kind);
         continue;
       }
     }

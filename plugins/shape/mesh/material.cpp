@@ -159,8 +159,11 @@ void Converter::gltf(MeshPart& part) {
   setNormalMap(*b);
   aiString mode;
   from_.Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
-  if (std::string(mode.C_Str()) == "BLEND" || std::string(mode.C_Str()) == "MASK")
+  const bool isMask = std::string(mode.C_Str()) == "MASK";
+  if (isMask || std::string(mode.C_Str()) == "BLEND")
     setData(*b, "opacity", colours, base.a, "a");
+  if (isMask)
+    set(*b, "opacity_cutoff", numberValue(std::clamp(number("$mat.gltf.alphaCutoff", 0.5), 0., 1.)));
   part.brdf = b;
   part.emission = emission(number("$mat.emissiveIntensity", 1));
 }
