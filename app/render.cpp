@@ -87,14 +87,23 @@ void warnAboutCounters(const Counters& c) {
     warn(fmt::format("{} had no finite value and {} left out as black; please report the scene",
                      count((long long)c.nonFinite, "sample"), c.nonFinite == 1 ? "was" : "were"));
   if (c.clamped > 0)
-    warn(fmt::format("{} brighter than {:.0f} and {} cut down to it",
+    warn(fmt::format("{} brighter than {:.3g} and {} cut down to it",
                      count((long long)c.clamped, "sample") + (c.clamped == 1 ? " was" : " were"),
-                     kFilmLimit, c.clamped == 1 ? "was" : "were"));
+                     kRadianceLimit, c.clamped == 1 ? "was" : "were"));
   if (c.clampedIndirect > 0)
     warn(
         fmt::format("the scene's clamp cut {} of indirect light down: the picture is a little too "
                     "dark",
                     count((long long)c.clampedIndirect, "contribution")));
+}
+
+void warnAboutAovs(const Film& film) {
+  for (std::size_t i = 0; i < film.layers().size(); ++i)
+    if (const std::uint64_t cut = film.cuts()[i]; cut > 0)
+      warn(fmt::format("{} of AOV '{}' {} not finite or beyond {:.3g} and {} cut",
+                       count((long long)cut, "sample"), film.layers()[i].name,
+                       cut == 1 ? "was" : "were", film.layers()[i].limit(),
+                       cut == 1 ? "was" : "were"));
 }
 
 void warnAboutTextures(const TextureUse& t) {
@@ -152,6 +161,7 @@ Statistics statisticsOf(const RenderRequest& r, const LoadedScene& loaded, const
   s.loadSeconds = loaded.loadSeconds, s.buildSeconds = loaded.buildSeconds;
   s.render = result, s.seed = r.render.seed, s.noise = r.render.noise;
   s.isAdaptive = r.render.adaptive || s.noise > 0;
+  for (const std::uint64_t cut : film.cuts()) s.cutAovs += cut;
   s.textures = loaded.scene->textureUse(), s.triangles = loaded.scene->triangles();
   s.width = crop.x1 - crop.x0, s.height = crop.y1 - crop.y0;
   return s;
@@ -171,6 +181,7 @@ int writeResults(const RenderRequest& r, const Statistics& stats, const Film& fi
                  std::uint64_t sceneHash, bool isKept) {
   const RenderResult& result = stats.render;
   warnAboutCounters(result.counters);
+  warnAboutAovs(film);
   warnAboutTextures(stats.textures);
   if (result.mostSamples == 0) {
     complain("stopped before the first sample, so there is no picture to write");

@@ -56,6 +56,7 @@ std::string statisticsJson(const Statistics& s) {
                {"nonfinite", c.nonFinite},
                {"clamped", c.clamped},
                {"clamped_indirect", c.clampedIndirect},
+               {"cut_aovs", s.cutAovs},
                {"triangles", s.triangles},
                {"texture_bytes", s.textures.held},
                {"textures_paged", s.textures.paged},

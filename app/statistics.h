@@ -18,8 +18,9 @@ struct Statistics {
   std::size_t triangles = 0;
   int width = 0, height = 0;  ///< pixels that were rendered
   std::uint32_t seed = 0;
-  double noise = 0;         ///< that was wanted; 0: none
-  bool isAdaptive = false;  ///< not the same number of samples everywhere
+  std::uint64_t cutAovs = 0;  ///< samples of AOVs that were not finite or too large
+  double noise = 0;           ///< that was wanted; 0: none
+  bool isAdaptive = false;    ///< not the same number of samples everywhere
   /// Of `render.seconds`, what earlier runs took; negative: no checkpoint is kept.
   double earlierSeconds = -1;
 };

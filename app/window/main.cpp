@@ -38,7 +38,7 @@ int run(int argc, char** argv) {
       program, "--seed", 0, 1 << 30, [&](auto n) { r.render.seed = std::uint32_t(n); },
       "of all random numbers (0)");
   addNumber(
-      program, "--exposure", -20, 20, [&](double x) { r.display.exposure = x; }, "stops (0)");
+      program, "--exposure", -100, 100, [&](double x) { r.display.exposure = x; }, "stops (0)");
   program.add_option("--view", r.display.view, "of the colour config (its default)");
   program.add_option("--compare", r.reference, "a picture to compare with")->type_name("FILE");
   program.add_flag("--events", r.tells, "a line on stdout for whatever happens, for scripts");

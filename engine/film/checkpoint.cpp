@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines for people (what the file is, the label, the effort), then little-endian numbers: sums,
-// samples, and a checksum of all before it.
+// Lines for people (what the file is, the label, the effort), then little-endian numbers: what
+// Film::storage() holds, and a checksum of everything before it.
 #include "engine/film/checkpoint.h"
 
 #include <fcntl.h>
@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -22,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFirstLine = "vestige checkpoint 1";
+constexpr const char* kName = "vestige checkpoint ";
+constexpr int kLayout = 2;  ///< of the file; grows whenever older files cannot be read any more
 constexpr const char* kLastLine = "film";  ///< of the text
 constexpr char kTab = '\t';                ///< between what a fact is about and its value
 constexpr std::size_t kPiece = 1 << 20;    ///< bytes read at once
@@ -60,6 +62,13 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   return text;
 }
 
+/// "-32": exponents of two.
+std::string unitsOf(const Film& film) {
+  std::vector<std::string> units;
+  for (const FilmLayer& l : film.layers()) units.push_back(std::to_string(std::ilogb(l.unit)));
+  return units.empty() ? "empty" : joined(units, ",");
+}
+
 CheckpointLabel wholeLabel(const Film& film, CheckpointLabel label) {
   std::vector<std::string> size, crop, aovs;
   for (const int n : {film.width(), film.height()}) size.push_back(std::to_string(n));
@@ -69,6 +78,7 @@ CheckpointLabel wholeLabel(const Film& film, CheckpointLabel label) {
   label.push_back({"the film's size", joined(size, " x ")});
   label.push_back({"the crop window", joined(crop, ",")});
   label.push_back({"the list of AOVs", aovs.empty() ? "empty" : joined(aovs, ",")});
+  label.push_back({"the list of the AOVs' units", unitsOf(film)});
   for (CheckpointFact& f : label) f.what = onOneLine(f.what), f.value = onOneLine(f.value);
   return label;
 }
@@ -141,6 +151,22 @@ bool isWhole(std::ifstream& in, std::uintmax_t size) {
   return true;
 }
 
+/// Throws unless the line begins a file of the layout that this program writes.
+void checkFirstLine(const std::string& line, const std::string& path) {
+  const std::string name = kName;
+  if (line == name + std::to_string(kLayout)) return;
+  if (line.rfind(name, 0) != 0) fail(path, "is no checkpoint; choose another name");
+  fail(path, "has layout " + onOneLine(line.substr(name.size(), 10)) +
+                 ", and this version of the program reads layout " + std::to_string(kLayout) +
+                 " only; delete it to begin anew, or choose another name");
+}
+
+std::uintmax_t bytesOf(const Film& film) {
+  std::uintmax_t bytes = 0;
+  for (const auto& part : film.storage()) bytes += part.size();
+  return bytes;
+}
+
 CheckpointLabel readLabel(std::istream& in) {
   CheckpointLabel label;
   for (std::string line; in.peek() != kTab && std::getline(in, line);) {
@@ -169,15 +195,14 @@ void saveCheckpoint(const Film& film, const CheckpointLabel& label, const Effort
                     const std::string& path) {
   std::ostringstream text;
   text.precision(17);
-  text << kFirstLine << '\n';
+  text << kName << kLayout << '\n';
   for (const CheckpointFact& f : wholeLabel(film, label)) text << f.what << kTab << f.value << '\n';
   text << kTab << effort.seconds;
   for (const std::uint64_t n : std::bit_cast<Numbers>(effort.counters)) text << ' ' << n;
   text << '\n' << kLastLine << '\n';
   Replacement file(path);
   file.write(text.str().data(), text.str().size());
-  file.write(film.sums().data(), film.sums().size_bytes());
-  file.write(film.counts().data(), film.counts().size_bytes());
+  for (const auto& part : film.storage()) file.write(part.data(), part.size());
   file.finish();
 }
 
@@ -188,8 +213,8 @@ Effort loadCheckpoint(Film& film, const CheckpointLabel& label, const std::strin
   if (!in || failed)
     fail(path, "cannot be read: " + (failed ? failed.message() : std::strerror(errno)));
   std::string line;
-  if (!std::getline(in, line) || line != kFirstLine)
-    fail(path, "is no checkpoint of this version of the program; choose another name");
+  std::getline(in, line);
+  checkFirstLine(line, path);
   in.seekg(0);
   if (!isWhole(in, size))
     fail(path, "is damaged, or only the beginning of one; delete it to begin anew");
@@ -203,13 +228,11 @@ Effort loadCheckpoint(Film& film, const CheckpointLabel& label, const std::strin
   for (std::uint64_t& n : counters) in >> n;
   in >> line;
   in.get();
-  const std::uintmax_t bytes = film.sums().size_bytes() + film.counts().size_bytes();
   if (!in || line != kLastLine ||
-      std::uintmax_t(in.tellg()) + bytes + sizeof(std::uint64_t) != size)
+      std::uintmax_t(in.tellg()) + bytesOf(film) + sizeof(std::uint64_t) != size)
     fail(path, "is damaged; delete it to begin anew");
-  in.read(reinterpret_cast<char*>(film.sums().data()), std::streamsize(film.sums().size_bytes()));
-  in.read(reinterpret_cast<char*>(film.counts().data()),
-          std::streamsize(film.counts().size_bytes()));
+  for (const auto& part : film.storage())
+    in.read(reinterpret_cast<char*>(part.data()), std::streamsize(part.size()));
   if (!in) fail(path, std::string("cannot be read: ") + std::strerror(errno));
   effort.counters = std::bit_cast<Counters>(counters);
   return effort;

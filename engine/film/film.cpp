@@ -2,87 +2,48 @@
 #include "engine/film/film.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace vestige {
 
 namespace {
 
-/// The channels that an AOV fills, and its part of Aovs.
-struct Layer {
-  const char* name;
-  std::vector<const char*> channels;
-};
+constexpr std::size_t kColours = 3;
 
-const Layer& layer(Aov aov) noexcept {
-  static const Layer layers[] = {
-      {"normal", {"normal.X", "normal.Y", "normal.Z"}},
-      {"albedo", {"albedo.R", "albedo.G", "albedo.B"}},
-      {"depth", {"depth.Z"}},
-      {"position", {"position.X", "position.Y", "position.Z"}},
-      {"uv", {"uv.U", "uv.V"}},
-      {"samples", {"samples"}},
-      {"footprint", {"footprint"}},
-      {"footprint.texels", {"footprint.texels"}},
-      {"gradient", {"gradient"}},
-      {"element.level", {"element.level"}},
-      {"element.id", {"element.id"}},
-  };
-  return layers[int(aov)];
+/// Radiance in units of the film, rounded to nearest; |x| is at most kRadianceLimit. On the bits of
+/// the number: the compiler's own conversion calls a library.
+Int128 inUnits(double x) noexcept {
+  constexpr int kMantissa = 52;
+  constexpr int kBias = 1023 + kMantissa;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const int exponent = int(bits >> kMantissa & 0x7ff);
+  const std::uint64_t one = std::uint64_t(1) << kMantissa;
+  const std::uint64_t mantissa = (bits & (one - 1)) | one;
+  const int shift = exponent - kBias + kRadianceBits;
+  Int128 units = 0;  // below 2^-64 of a unit, also for 0 and subnormal numbers
+  if (shift >= 0)
+    units = Int128(mantissa) << shift;
+  else if (shift > -64)
+    units = Int128((mantissa + (std::uint64_t(1) << (-shift - 1))) >> -shift);
+  return x < 0 ? -units : units;
 }
 
-/// A number in units of the film, rounded to nearest; 0 for what is not finite.
-std::int64_t inUnits(double x, bool& clamped) noexcept {
-  if (!std::isfinite(x)) return 0;
-  clamped = clamped || std::abs(x) > kFilmLimit;
-  x = std::clamp(x, -kFilmLimit, kFilmLimit) / kFilmUnit;
-  return std::int64_t(x + std::copysign(0.5, x));
-}
-
-/// Sums hold 2048 samples at the limit; beyond that they stay at their largest value.
-bool addTo(std::int64_t& sum, std::int64_t x) noexcept {
+/// False if the sum does not fit: it then stays at its largest value.
+template <class Sum>
+bool addTo(Sum& sum, Sum x) noexcept {
+  constexpr Sum kQuarter = Sum(1) << (8 * sizeof(Sum) - 2);
+  constexpr Sum kMost = kQuarter - 1 + kQuarter;
   if (!__builtin_add_overflow(sum, x, &sum)) return true;
-  sum = x > 0 ? std::numeric_limits<std::int64_t>::max() : std::numeric_limits<std::int64_t>::min();
+  sum = x > 0 ? kMost : -kMost;
   return false;
 }
 
-/// Values of one AOV; returns how many.
-int values(Aov aov, const Aovs& from, Real out[3]) noexcept {
-  const auto three = [&](Real a, Real b, Real c) { return out[0] = a, out[1] = b, out[2] = c, 3; };
-  const auto one = [&](Real a) { return out[0] = a, 1; };
-  switch (aov) {
-    case Aov::normal:
-      return three(from.normal.x, from.normal.y, from.normal.z);
-    case Aov::albedo:
-      return three(from.albedo.r, from.albedo.g, from.albedo.b);
-    case Aov::depth:
-      return one(from.depth);
-    case Aov::position:
-      return three(from.position.x, from.position.y, from.position.z);
-    case Aov::uv:
-      return out[0] = from.uv.x, out[1] = from.uv.y, 2;
-    case Aov::samples:
-      return one(0);  // means() knows
-    case Aov::footprint:
-      return one(from.footprint);
-    case Aov::footprintTexels:
-      return one(from.footprintTexels);
-    case Aov::gradient:
-      return one(from.gradient);
-    case Aov::elementLevel:
-      return one(from.elementLevel);
-    case Aov::elementId:
-      return one(from.elementId);
-  }
-  return 0;
-}
-
 }  // namespace
-
-const char* name(Aov aov) noexcept { return layer(aov).name; }
 
 bool Film::wantsFootprint() const noexcept {
   const auto isAbout = [](Aov a) {
@@ -91,14 +52,19 @@ bool Film::wantsFootprint() const noexcept {
   return std::any_of(aovs_.begin(), aovs_.end(), isAbout);
 }
 
-Film::Film(int width, int height, Crop crop, std::vector<Aov> aovs)
-    : width_(width), height_(height), crop_(crop), aovs_(std::move(aovs)), channels_(3) {
+Film::Film(int width, int height, Crop crop, std::vector<Aov> aovs, double sceneSize)
+    : width_(width), height_(height), crop_(crop), aovs_(std::move(aovs)) {
   assert(0 <= crop.x0 && crop.x0 < crop.x1 && crop.x1 <= width);
   assert(0 <= crop.y0 && crop.y0 < crop.y1 && crop.y1 <= height);
-  for (const Aov aov : aovs_) channels_ += int(layer(aov).channels.size());
+  for (const Aov aov : aovs_) {
+    layers_.push_back(layerOf(aov, sceneSize));
+    stored_ += std::size_t(layers_.back().stored());
+  }
   const std::size_t pixels = std::size_t(crop.x1 - crop.x0) * std::size_t(crop.y1 - crop.y0);
   counts_.assign(pixels, 0);
-  sums_.assign(pixels * std::size_t(channels_), 0);
+  radiance_.assign(pixels * kColours, 0);
+  sums_.assign(pixels * stored_, 0);
+  cuts_.assign(layers_.size(), 0);
 }
 
 std::size_t Film::index(int x, int y) const noexcept {
@@ -108,19 +74,62 @@ std::size_t Film::index(int x, int y) const noexcept {
 
 void Film::add(int x, int y, Rgb radiance, const Aovs& aovs, Counters& counters) noexcept {
   const std::size_t pixel = index(x, y);
-  std::int64_t* sum = &sums_[pixel * std::size_t(channels_)];
   ++counts_[pixel];
-  if (!std::isfinite(radiance.r) || !std::isfinite(radiance.g) || !std::isfinite(radiance.b))
-    radiance = {}, ++counters.nonFinite;
-  bool clamped = false;
-  for (const Real c : {radiance.r, radiance.g, radiance.b})
-    if (!addTo(*sum++, inUnits(c, clamped))) clamped = true;
-  counters.clamped += clamped;
-  for (const Aov aov : aovs_) {
-    Real v[3];
-    bool ignored = false;
-    for (int i = 0, n = values(aov, aovs, v); i < n; ++i) addTo(*sum++, inUnits(v[i], ignored));
+  if (!isFinite(radiance)) {
+    radiance = {};
+    ++counters.nonFinite;
   }
+  bool isClamped = false;
+  Int128* sum = &radiance_[pixel * kColours];
+  for (const double c : {double(radiance.r), double(radiance.g), double(radiance.b)}) {
+    const double fitting = std::clamp(c, -kRadianceLimit, kRadianceLimit);
+    isClamped |= fitting != c;
+    isClamped |= !addTo(*sum++, inUnits(fitting));
+  }
+  counters.clamped += isClamped;
+  std::int64_t* stored = sums_.data() + pixel * stored_;
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    Real v[3];
+    const int count = values(aovs_[i], aovs, v);
+    addLayer(i, {v, std::size_t(count)}, stored);
+    stored += count;
+  }
+}
+
+void Film::addLayer(std::size_t layer, std::span<const Real> values, std::int64_t* sums) noexcept {
+  const double unit = layers_[layer].unit;
+  const double limit = layers_[layer].limit();
+  bool isCut = false;
+  for (const Real v : values) {
+    const double finite = std::isfinite(v) ? double(v) : 0;
+    const double fitting = std::clamp(finite, -limit, limit);
+    isCut |= !(fitting == double(v));
+    const double units = fitting / unit;
+    isCut |= !addTo(*sums++, std::int64_t(units + std::copysign(0.5, units)));
+  }
+  if (isCut) std::atomic_ref(cuts_[layer]).fetch_add(1, std::memory_order_relaxed);
+}
+
+void Film::merge(const Film& other, Counters& counters) {
+  if (width_ != other.width_ || height_ != other.height_ || crop_ != other.crop_ ||
+      layers_ != other.layers_)
+    throw std::runtime_error(
+        "films can only be merged if their sizes, crop windows, AOVs and units are the same");
+  for (std::size_t pixel = 0; pixel < counts_.size(); ++pixel) {
+    counts_[pixel] += other.counts_[pixel];
+    bool isClamped = false;
+    for (std::size_t i = pixel * kColours; i < (pixel + 1) * kColours; ++i)
+      isClamped |= !addTo(radiance_[i], other.radiance_[i]);
+    counters.clamped += isClamped;
+    std::size_t at = pixel * stored_;
+    for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+      bool isCut = false;
+      for (int i = 0; i < layers_[layer].stored(); ++i, ++at)
+        isCut |= !addTo(sums_[at], other.sums_[at]);
+      cuts_[layer] += isCut;
+    }
+  }
+  for (std::size_t layer = 0; layer < layers_.size(); ++layer) cuts_[layer] += other.cuts_[layer];
 }
 
 std::uint32_t Film::samples(int x, int y) const noexcept { return counts_[index(x, y)]; }
@@ -140,35 +149,44 @@ double Film::meanSamples() const noexcept {
 double Film::luminance(int x, int y) const noexcept {
   const std::size_t pixel = index(x, y);
   if (counts_[pixel] == 0) return 0;
-  const std::int64_t* sum = &sums_[pixel * std::size_t(channels_)];
+  const Int128* sum = &radiance_[pixel * kColours];
   const double total = 0.2126 * double(sum[0]) + 0.7152 * double(sum[1]) + 0.0722 * double(sum[2]);
-  return total * kFilmUnit / counts_[pixel];
+  return total * kRadianceUnit / counts_[pixel];
 }
 
 Film::Means Film::means() const {
   Means m{crop_.x1 - crop_.x0, crop_.y1 - crop_.y0, {"R", "G", "B"}, {}};
-  int samplesChannel = -1;
-  for (const Aov aov : aovs_) {
-    if (aov == Aov::samples) samplesChannel = int(m.channels.size());
-    m.channels.insert(m.channels.end(), layer(aov).channels.begin(), layer(aov).channels.end());
-  }
-  m.pixels.reserve(sums_.size());
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
-    const std::uint32_t count = counts_[i / std::size_t(channels_)];
-    const double mean = count > 0 ? double(sums_[i]) * kFilmUnit / count : 0;
-    m.pixels.push_back(int(i % std::size_t(channels_)) == samplesChannel ? float(count)
-                                                                         : float(mean));
+  for (const FilmLayer& l : layers_)
+    m.channels.insert(m.channels.end(), l.channels.begin(), l.channels.end());
+  m.pixels.reserve(counts_.size() * m.channels.size());
+  std::size_t at = 0;
+  for (std::size_t pixel = 0; pixel < counts_.size(); ++pixel) {
+    const std::uint32_t count = counts_[pixel];
+    const auto put = [&](double sum) { m.pixels.push_back(count > 0 ? float(sum / count) : 0); };
+    for (std::size_t i = pixel * kColours; i < (pixel + 1) * kColours; ++i)
+      put(double(radiance_[i]) * kRadianceUnit);
+    for (const FilmLayer& l : layers_) {
+      if (l.isCount) m.pixels.push_back(float(count));
+      for (int i = 0; i < l.stored(); ++i) put(double(sums_[at++]) * l.unit);
+    }
   }
   return m;
 }
 
+std::array<std::span<std::byte>, 4> Film::storage() noexcept {
+  return {std::as_writable_bytes(std::span(radiance_)), std::as_writable_bytes(std::span(sums_)),
+          std::as_writable_bytes(std::span(counts_)), std::as_writable_bytes(std::span(cuts_))};
+}
+
+std::array<std::span<const std::byte>, 4> Film::storage() const noexcept {
+  return {std::as_bytes(std::span(radiance_)), std::as_bytes(std::span(sums_)),
+          std::as_bytes(std::span(counts_)), std::as_bytes(std::span(cuts_))};
+}
+
 Film withoutAovs(const Film& film) {
   Film bare(film.width(), film.height(), film.crop(), {});
-  const std::size_t pixels = film.counts().size();
-  const std::size_t from = film.sums().size() / pixels, to = bare.sums().size() / pixels;
-  for (std::size_t i = 0; i < pixels; ++i)
-    std::copy_n(&film.sums()[i * from], to, &bare.sums()[i * to]);
-  std::copy(film.counts().begin(), film.counts().end(), bare.counts().begin());
+  bare.radiance_ = film.radiance_;
+  bare.counts_ = film.counts_;
   return bare;
 }
 

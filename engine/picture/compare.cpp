@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cassert>
+#include <cfloat>
 #include <cmath>
 #include <numeric>
 
@@ -50,7 +51,7 @@ void compareMeans(const std::vector<float>& a, const std::vector<float>& b, Comp
     double sumA = 0, sumB = 0;
     for (std::size_t i = std::size_t(c); i < a.size(); i += 3) sumA += a[i], sumB += b[i];
     const double n = double(a.size() / 3);
-    result.meanRatio[c] = sumA / n / std::max(sumB / n, 1e-12);
+    result.meanRatio[c] = sumA / n / std::max(sumB / n, double(FLT_MIN));
   }
 }
 

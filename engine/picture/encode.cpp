@@ -76,8 +76,9 @@ bool displayPixels(const Image& image, const WriteOptions& options, Pixels& p, s
   const auto transform = forDisplay(options.display, error);
   if (!transform) return false;
   std::vector<float> rgb = rgbOf(image);
-  constexpr float kBright = 1e6f;  // the config's own formulas make NaN of infinity
-  for (float& x : rgb) x = std::isnan(x) ? 0 : std::clamp(x, -kBright, kBright);
+  // After exposure 1e6 at most: the config's own formulas make NaN of infinity.
+  const auto bright = float(1e6 * std::exp2(-options.display.exposure));
+  for (float& x : rgb) x = std::isnan(x) ? 0 : std::clamp(x, -bright, bright);
   transform->apply(rgb.data(), rgb.size() / 3, 3);
   p.bytes.resize(rgb.size());
   for (std::size_t i = 0; i < rgb.size(); ++i)

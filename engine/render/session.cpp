@@ -239,10 +239,23 @@ FilmShape filmShape(const Scene& scene, int width, int height, const double crop
   return {w, h, window};
 }
 
+double sceneSize(const Scene& scene) {
+  const FilmSettings& film = scene.film();
+  const Real aspect = Real(film.width) / Real(film.height);
+  Bounds extent = scene.view().bounds();
+  for (const Vec2 at : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}, Vec2{0.5, 0.5}})
+    if (const auto s = scene.camera().sample({at, {0.5, 0.5}, aspect})) extent.add(s->origin);
+  const auto farthest = [](Real a, Real b) { return double(std::max(std::abs(a), std::abs(b))); };
+  const double size =
+      std::hypot(farthest(extent.low.x, extent.high.x), farthest(extent.low.y, extent.high.y),
+                 farthest(extent.low.z, extent.high.z));
+  return size > 0 && std::isfinite(size) ? size : 1;
+}
+
 Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
               std::vector<Aov> aovs) {
   const FilmShape s = filmShape(scene, width, height, crop);
-  return Film(s.width, s.height, s.crop, std::move(aovs));
+  return Film(s.width, s.height, s.crop, std::move(aovs), sceneSize(scene));
 }
 
 RenderResult render(Scene& scene, Film& film, const RenderOptions& options) {

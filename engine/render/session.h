@@ -73,7 +73,10 @@ struct FilmShape {
   Crop crop;
 };
 FilmShape filmShape(const Scene& scene, int width, int height, const double crop[4]);
-/// An empty film of that shape.
+/// The largest distance from the origin of the finite part of the scene and of the camera, scene
+/// units; 1 where nothing says so. A function of the scene alone.
+double sceneSize(const Scene& scene);
+/// An empty film of that shape, whose units follow the scene's size.
 Film makeFilm(const Scene& scene, int width, int height, const double crop[4],
               std::vector<Aov> aovs);
 

@@ -61,6 +61,16 @@ TEST_CASE("constant pictures differ by the formulas", "[compare]") {
   CHECK(c.blockDifference == Approx((0.5 + 0.2) / 3 / (1.7 / 3 + 0.01)));
 }
 
+TEST_CASE("the ratio of means does not depend on the level", "[compare]") {
+  for (const float level : {1e-20f, 1e-12f, 1.f, 1e12f}) {
+    const Comparison c = compareImages(constant(4, 4, 3 * level, level, 0),
+                                       constant(4, 4, 2 * level, level, level), nullptr);
+    CHECK(c.meanRatio[0] == Approx(1.5));
+    CHECK(c.meanRatio[1] == Approx(1));
+    CHECK(c.meanRatio[2] == 0);
+  }
+}
+
 TEST_CASE("the worst thousandth of the pixels can be left out", "[compare]") {
   const Image reference = constant(100, 30, 1, 1, 1);
   Image fireflies = constant(100, 30, 1, 1, 1);

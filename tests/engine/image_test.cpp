@@ -116,6 +116,12 @@ TEST_CASE("PNG shows sRGB codes, whatever comes", "[image]") {
   brighter.display.exposure = 2;
   write(folder / "c.png", rgbImage(1, 1, {0.045f, 0.25f, 0}), brighter);
   CHECK(codes(folder / "c.png") == std::vector<int>{118, 255, 0});
+  for (const float radiance : {1e-12f, 1e12f}) {  // exposure brings any radiance into view
+    WriteOptions exposed;
+    exposed.display.exposure = std::log2(0.18 / double(radiance));
+    write(folder / "d.png", rgbImage(1, 1, {radiance, 0, -radiance}), exposed);
+    CHECK(codes(folder / "d.png") == std::vector<int>{118, 0, 0});
+  }
   write(folder / "grey.png", Image{1, 1, {"Y"}, {0.18f}, {}});
   CHECK(codes(folder / "grey.png") == std::vector<int>{118, 118, 118});
   write(folder / "order.png", Image{1, 1, {"depth.Z", "B", "G", "R"}, {7, 0, 0.18f, 1}, {}});
