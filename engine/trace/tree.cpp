@@ -140,7 +140,6 @@ void Layers::add(const TreeHit& hit) noexcept {
 void Layers::settle() noexcept {
   const auto begin = hits_.begin(), end = begin + count_;
   std::sort(begin, end);
-  // Reported twice, or met on an edge between two triangles.
   const auto isSame = [](const TreeHit& a, const TreeHit& b) {
     return a.t == b.t && a.item == b.item;
   };
