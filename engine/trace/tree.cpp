@@ -140,7 +140,9 @@ void Layers::add(const TreeHit& hit) noexcept {
 void Layers::settle() noexcept {
   const auto begin = hits_.begin(), end = begin + count_;
   std::sort(begin, end);
-  const auto isSame = [](const TreeHit& a, const TreeHit& b) { return !(a < b) && !(b < a); };
+  const auto isSame = [](const TreeHit& a, const TreeHit& b) {
+    return a.t == b.t && a.item == b.item;
+  };
   count_ = int(std::unique(begin, end, isSame) - begin);
   if (!isCut_) return;
   int whole = count_;

@@ -48,7 +48,7 @@ class Layers {
   static constexpr int kMost = 64;
 
   void add(const TreeHit& hit) noexcept;
-  /// Sorts them and drops what was reported twice. Surfaces at the same t stay together: the last
+  /// Sorts them and keeps one of an item at one t. Surfaces at the same t stay together: the last
   /// ones are left to the next round where some of them may not have fitted.
   void settle() noexcept;
   std::span<const TreeHit> hits() const noexcept { return {hits_.data(), std::size_t(count_)}; }

@@ -24,6 +24,7 @@ constexpr Real kFloat = std::numeric_limits<float>::epsilon();
 /// What many layers let through. In double, so that a thousand thin ones keep their digits.
 struct Product {
   double r = 1, g = 1, b = 1;
+  TreeHit last{-1, 0, 0, {}};  ///< the farthest layer so far
   void multiply(Rgb c) noexcept {
     r *= double(c.r);
     g *= double(c.g);
@@ -35,6 +36,12 @@ struct Product {
 Rgb clampedShare(Rgb c) noexcept {
   const auto share = [](Real x) { return std::clamp(x, Real(0), Real(1)); };
   return {share(c.r), share(c.g), share(c.b)};
+}
+
+/// Whether a hit lies where rounding may give it to the triangle beyond the edge as well.
+bool isAtEdge(const TreeHit& hit) noexcept {
+  constexpr Real kNear = Real(1e-4);
+  return std::min({hit.b.x, hit.b.y, 1 - hit.b.x - hit.b.y}) < kNear;
 }
 
 bool isLess(Rgb a, Rgb b) noexcept { return std::tie(a.r, a.g, a.b) < std::tie(b.r, b.g, b.b); }
@@ -103,6 +110,8 @@ struct World::Body {
   bool translucent = false;
 
   void fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept;
+  /// Whether the ray went through one point, on an edge between two triangles.
+  bool isOnePoint(const TreeHit& a, const TreeHit& b) const noexcept;
 
  private:
   void addItem(Placement p);
@@ -171,12 +180,24 @@ struct World::Impl {
     std::array<Rgb, Layers::kMost> shares;
     Surface surface;
     for (std::size_t first = 0, k = 0; k < hits.size(); ++k) {
-      fill(surface, ray, hits[k]);
-      shares[k] = grey(1) - clampedShare(opacity(context, surface));
+      shares[k] = grey(1);
+      if (!isCounted(hits, k, product.last)) {
+        fill(surface, ray, hits[k]);
+        shares[k] = grey(1) - clampedShare(opacity(context, surface));
+      }
       if (k + 1 < hits.size() && hits[k + 1].t == hits[k].t) continue;
       if (k > first) std::sort(shares.begin() + first, shares.begin() + k + 1, isLess);
       for (; first <= k; ++first) product.multiply(shares[first]);
     }
+    if (!hits.empty()) product.last = hits.back();
+  }
+  /// Whether the ray met hit k a moment before in the next triangle; `last`: of the round before.
+  bool isCounted(std::span<const TreeHit> hits, std::size_t k, const TreeHit& last) const noexcept {
+    if (!isAtEdge(hits[k])) return false;
+    constexpr Real kClose = 1 - Real(1e-3);
+    for (std::size_t i = k; i-- > 0 && hits[i].t >= kClose * hits[k].t;)
+      if (body->isOnePoint(hits[i], hits[k])) return true;
+    return last.item >= 0 && last.t >= kClose * hits[k].t && body->isOnePoint(last, hits[k]);
   }
 };
 
@@ -216,6 +237,17 @@ void World::Body::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noe
   s.primitive = hit.primitive;
   s.patch = patches.index(hit.item, hit.primitive);
   s.time = ray.time;
+}
+
+bool World::Body::isOnePoint(const TreeHit& a, const TreeHit& b) const noexcept {
+  if (a.item != b.item || !isAtEdge(a) || !isAtEdge(b)) return false;
+  const Triangles* t = items[a.item].triangles;
+  if (!t) return false;
+  int shared = 0;  // by position: corners of a seam differ in their uv
+  for (const std::uint32_t i : t->indices()[std::size_t(a.primitive)])
+    for (const std::uint32_t j : t->indices()[std::size_t(b.primitive)])
+      shared += t->positions()[i] == t->positions()[j];
+  return shared == 2;
 }
 
 World::World() : impl_(std::make_unique<Impl>()) {}

@@ -90,6 +90,17 @@ TEST_CASE("a thousand transparent layers let through what school says", "[world]
     }
 }
 
+TEST_CASE("an edge between two triangles is one layer", "[world][layers]") {
+  for (const Made made : {Made::meshes, Made::instances})
+    for (const int n : {1, 100})
+      for (const Real x : {Real(0), Real(0.25), Real(-0.5)}) {
+        INFO("made " << int(made) << ", layers " << n << ", x " << x);
+        const Ray diagonal{{x, x, 0}, {0, 0, 1}, 0, 100};
+        CHECK(layers(made, n).transmittance(diagonal, thin, nullptr).r ==
+              Approx(std::pow(double(1 - Real(0.001)), n)).epsilon(1e-6));
+      }
+}
+
 TEST_CASE("the order of the objects changes no bit of what layers let through", "[world][layers]") {
   for (const Made made : {Made::quads, Made::meshes, Made::mixed})
     for (const int n : {50, 1001}) {
