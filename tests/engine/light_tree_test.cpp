@@ -123,11 +123,11 @@ TEST_CASE("a light that wants no rays drawn towards it has no chance", "[lights]
     for (int i = wanted; i < 7; ++i) lamps.owned[std::size_t(i)]->isWanted = false;
     lamps.build();
     for (int draw = 0; draw < 100; ++draw) {
-      const auto choice = lamps.tree.choose(within(10, r), r.number());
+      const auto choice = lamps.tree.choose({within(10, r)}, r.number());
       REQUIRE(choice.has_value() == (wanted > 0));
       if (choice) CHECK(choice->light < wanted);
     }
-    for (int i = 0; i < 7; ++i) CHECK((lamps.tree.chance(i, within(10, {r})) > 0) == (i < wanted));
+    for (int i = 0; i < 7; ++i) CHECK((lamps.tree.chance(i, {within(10, r)}) > 0) == (i < wanted));
   }
 }
 

@@ -2,6 +2,7 @@
 // Random parameters: what they reach, and what they leave alone.
 #include "judge/plain.h"
 
+#include "judge/harsh.h"
 #include "judge/judge.h"
 #include "judge/trusted_difference.h"
 #include "support/catch.h"
@@ -61,4 +62,40 @@ TEST_CASE("judge: differences say nothing on a bend", "[judge]") {
   const auto seen = judge::trustedDifference(smooth, 1e-2, 4e-3);
   REQUIRE(seen);
   CHECK(double(*seen) == Approx(std::cos(1.0)).epsilon(1e-3));
+}
+
+TEST_CASE("judge: differences say nothing about a table with fine knots", "[judge]") {
+  // Slopes 1.02 and 0.98 in turn, 1 over any of the wide steps.
+  const auto table = [](double h) {
+    const double knot = 1e-3, x = h / knot + 0.3, n = std::floor(x), share = x - n;
+    const bool isSteep = std::fmod(std::abs(n), 2) < 0.5;
+    return std::optional(Real(knot * (n + share + 0.02 * (isSteep ? share : 1 - share))));
+  };
+  const auto smooth = [](double h) { return std::optional(Real(std::sin(1 + h))); };
+  const double step = 1e-2, tolerance = 4e-3, noise = 0.1;
+  const auto mean = judge::trustedDifference(table, step, tolerance, noise);
+  REQUIRE(mean);  // by itself it takes the mean for the slope
+  CHECK(std::abs(double(*mean) - 1) < tolerance);
+  CHECK(judge::hasFineBends(table, *mean, step, tolerance, noise));
+  const auto slope = judge::trustedDifference(smooth, step, tolerance);
+  REQUIRE(slope);
+  CHECK_FALSE(judge::hasFineBends(smooth, *slope, step, tolerance, 1));
+}
+
+TEST_CASE("judge: a case can be pasted into a scene", "[judge]") {
+  const Settings s = {{"location", vectorValue({-1.5, 0, 2})},
+                      {"radiance", colourValue(1, 2, 3)},
+                      {"show", textValue("smooth")},
+                      {"map", textValue("picture.exr")},
+                      {"angle", numberValue(40)}};
+  CHECK(judge::textOfSettings(s) ==
+        " angle 40 location <-1.5, 0, 2> map \"picture.exr\" radiance rgb <1, 2, 3> show smooth");
+}
+
+TEST_CASE("judge: rows whose values were all refused are told", "[judge]") {
+  judge::TriedRows rows;
+  rows.offer({{"file", textValue("a")}, {"angle", numberValue(1)}});
+  rows.offer({{"angle", numberValue(2)}});
+  rows.accept({{"angle", numberValue(2)}});
+  CHECK(rows.refused() == "file (every value was refused)");
 }

@@ -50,8 +50,7 @@ inline constexpr std::uint32_t kSdkMajor = 7, kSdkMinor = 0;
 
 /// Bits of VestigePlugin::lacks: methods that the plugin's class leaves as its interface has them.
 inline constexpr std::uint32_t kLacksSampleDerivatives = 1, kLacksLogGradient = 2,
-                               kLacksEmission = 4,  ///< not a derivative: the light sends nothing
-    kLacksEmissionDerivatives = 8, kLacksPdf = 16;
+                               kLacksEmission = 4, kLacksEmissionDerivatives = 8, kLacksPdf = 16;
 /// Those for which finite differences stand in.
 inline constexpr std::uint32_t kLacksDerivatives =
     kLacksSampleDerivatives | kLacksLogGradient | kLacksEmissionDerivatives;

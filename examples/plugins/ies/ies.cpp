@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A luminaire with a measured distribution: an IES file (LM-63, type C photometry). The nadir of
-// the file, vertical angle 0, is the light's axis; its values are scaled to 1 in the brightest
-// direction. Between the angles of the file the intensity is bilinear. The derivative is left to
-// the engine.
+// A luminaire with a measured distribution: an IES file (LM-63, type C photometry), scaled to 1 in
+// its brightest direction. Its nadir, vertical angle 0, is the light's axis. Bilinear between the
+// angles of the file; the derivative is left to the engine.
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <functional>
 #include <sstream>
 
 #include <vestige/delta_light.h>
 
-namespace vestige {
-namespace {
+namespace vestige::ies_plugin {
 
 const char* const kDownlight =  // without a file
     "TILT=NONE 1 1000 1 7 1 1 2 0 0 0 1 1 10  0 15 30 45 60 75 90  0  1000 950 800 550 300 100 0";
@@ -29,7 +26,7 @@ class Ies final : public PointSource {
     return {.kind = "light",
             .name = "ies",
             .summary = "a point with a measured distribution",
-            .params = {file("file").place().doc("LM-63, type C; without it a downlight"),
+            .params = {file("file").place().doc("LM-63; without it a downlight"),
                        vec3("location", {}).in("scene units").doc("where it stands"),
                        vec3("point_at", {0, 0, 1}).in("scene units").doc("where the nadir goes"),
                        rgb("intensity", 1).range(0, 1e12).in("W/sr").doc("at the brightest")}};
@@ -41,15 +38,14 @@ class Ies final : public PointSource {
     const Real down = 180 / kPi * std::atan2(std::hypot(d.x, d.y), d.z);
     if (down < table_.vertical.front() || down > table_.vertical.back()) return {};
     const Real last = table_.horizontal.back();
-    Real around = 180 / kPi * std::atan2(d.y, d.x);
+    Real around = 180 / kPi * std::atan2(d.y, d.x);  // -180 to 180
     if (last > 180 && around < 0) around += 360;
     if (last <= 180) around = std::abs(around);               // both sides are alike
     if (last <= 90) around = std::min(around, 180 - around);  // ... and both ends
     const Real v = place(table_.vertical, down), h = place(table_.horizontal, around);
-    const auto row = [&](Real i) {
-      return std::lerp(value(i, v), value(i, v + 1), v - std::floor(v));
-    };
-    return std::lerp(row(h), row(h + 1), h - std::floor(h)) * intensity_;
+    const Real v1 = v - std::floor(v), h1 = h - std::floor(h);
+    const auto row = [&](Real i) { return std::lerp(value(i, v), value(i, v + 1), v1); };
+    return std::lerp(row(h), row(h + 1), h1) * intensity_;
   }
 
  private:
@@ -59,14 +55,11 @@ class Ies final : public PointSource {
         intensity_(values.rgb(kIntensity)) {}
 
   static Table read(const Values& values, Host& host) {
-    std::stringstream text(kDownlight);
-    if (values.has(kFile)) {
-      std::string error;
-      const std::string name = host.find(values.text(kFile), values.span(kFile), error);
-      if (name.empty()) throw PluginError(kFile, error);
-      text.str("");
-      text << std::ifstream(name).rdbuf();
-    }
+    std::string error, name;
+    if (values.has(kFile)) name = host.find(values.text(kFile), values.span(kFile), error);
+    if (!error.empty()) throw PluginError(kFile, error);
+    std::stringstream text(name.empty() ? kDownlight : "");
+    if (!name.empty()) text << std::ifstream(name).rdbuf();
     for (std::string word; word != "TILT=NONE" && text >> word;) continue;
     double head[13] = {};  // lamps, lumens, factor, vertical, horizontal, type, ...
     for (double& x : head) text >> x;
@@ -89,20 +82,18 @@ class Ies final : public PointSource {
   static Real place(const std::vector<Real>& angles, Real x) noexcept {
     const auto next = std::upper_bound(angles.begin(), angles.end() - 1, x);
     if (next == angles.begin()) return 0;
-    const Real share = std::min((x - next[-1]) / (next[0] - next[-1]), Real(1));
-    return Real(next - angles.begin() - 1) + share;
+    return Real(next - angles.begin() - 1) +
+           std::min((x - next[-1]) / (next[0] - next[-1]), Real(1));
   }
   Real value(Real horizontal, Real vertical) const noexcept {
-    const std::size_t n = table_.vertical.size(), h = std::size_t(horizontal);
-    return table_.values[std::min(h, table_.horizontal.size() - 1) * n +
-                         std::min(std::size_t(vertical), n - 1)];
+    const auto i = std::size_t(horizontal) * table_.vertical.size() + std::size_t(vertical);
+    return table_.values[std::min(i, table_.values.size() - 1)];  // beyond the last its share is 0
   }
 
   Table table_;
   Rgb intensity_;
 };
 
-}  // namespace
-}  // namespace vestige
+}  // namespace vestige::ies_plugin
 
-VESTIGE_PLUGIN(vestige::Light, vestige::Ies)
+VESTIGE_PLUGIN(vestige::Light, vestige::ies_plugin::Ies)

@@ -155,6 +155,9 @@ class ParticleIntegrator final : public Integrator {
   bool usesJacobian() const noexcept override { return view_.wires; }
 
   bool prepare(const Preparation& p) override {
+    if (const int silent = silentLights(p.scene); silent > 0)
+      p.warn(std::to_string(silent) + " of the lights send no particles, as their plugins have no " +
+             "emit(): integrator particle leaves them out");
     if (!save_.empty()) checkSolutionFile(save_);
     HierarchySettings settings = elements_;
     const Bounds b = p.scene.bounds();
@@ -184,6 +187,20 @@ class ParticleIntegrator final : public Integrator {
   Rgb estimate(PathContext& context) const noexcept override { return view_.radiance(context); }
 
  private:
+  /// Lights that shine, but never start a particle.
+  static int silentLights(const SceneView& scene) {
+    int count = 0;
+    for (const Light* light : scene.lights()) {
+      bool isSilent = luminance(light->power()) > 0;
+      for (std::uint32_t i = 0; i < 64 && isSilent; ++i) {
+        const Sampler numbers(0, 0, i, 0);
+        isSilent = !light->emit({numbers.pair(0), numbers.pair(2)});
+      }
+      count += isSilent;
+    }
+    return count;
+  }
+
   /// False if the user stopped it.
   bool send(const Preparation& p, double power, Booking& booking) {
     const Shooting shooting{p.scene, *hierarchy_, footprint_, area_, particles_, p.seed, power};
