@@ -4,19 +4,20 @@
 
 namespace vestige::particle {
 
-/// What a BRDF does besides its matt part: f - albedo / pi, drawn as the whole is.
+/// What a BRDF does besides its diffuse part: f - albedo / pi, drawn as the whole is.
 class GlossyPart final : public Brdf {
  public:
-  GlossyPart(const Brdf& whole, Rgb albedo) : whole_(whole), matt_(albedo / kPi) {}
+  GlossyPart(const Brdf& whole, Rgb albedo) : whole_(whole), diffuse_(albedo / kPi) {}
 
   Rgb eval(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     const Rgb f = whole_.eval(p, toNext);
-    return toNext.z > 0 ? f - matt_ : f;
+    return toNext.z > 0 ? f - diffuse_ : f;
   }
   std::optional<ScatterSample> sample(const ScatterPoint& p,
                                       ScatterNumbers n) const noexcept override {
     std::optional<ScatterSample> s = whole_.sample(p, n);
-    if (s && !s->specular && s->toNext.z > 0) s->weight = s->weight - s->toNext.z / s->pdf * matt_;
+    if (s && !s->specular && s->toNext.z > 0)
+      s->weight = s->weight - s->toNext.z / s->pdf * diffuse_;
     return s;
   }
   Real pdf(const ScatterPoint& p, Vec3 toNext) const noexcept override {
@@ -35,7 +36,7 @@ class GlossyPart final : public Brdf {
 
  private:
   const Brdf& whole_;
-  Rgb matt_;
+  Rgb diffuse_;
 };
 
 }  // namespace vestige::particle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of a solution: paths from the eye that end on what is matt, where light is kept, and
-// go on through everything else.
+// The picture of a solution: paths from the eye that end on diffuse surfaces, where light is kept,
+// and go on from everything else.
 #pragma once
 #include <vestige/path_report.h>
 
@@ -11,12 +11,12 @@ namespace vestige::particle {
 enum class Show {
   smooth,    ///< irradiance blended between vertices
   elements,  ///< constant on each element
-  gather,    ///< what the eye sees first is lit by rays, and these see elements
+  gather,    ///< the first diffuse surface is lit by rays, and these see elements
 };
 
 struct Viewing {
   Show show = Show::smooth;
-  bool glossy = true;  ///< follow rays from what is not matt; if not it stays black
+  bool glossy = true;  ///< follow rays for what is not diffuse; if not, that part is black
   bool wires = false;  ///< draw the edges of elements
   int depth = 16;      ///< longest path, edges
   Irradiance light = {};
@@ -28,8 +28,9 @@ struct Viewing {
   struct Path;
   bool meet(Path& path) const noexcept;
   bool look(Path& path) const noexcept;
+  static bool end(Path& path) noexcept;
   bool scatter(Path& path) const noexcept;
-  Real wire(PathContext& c, const Place& place) const noexcept;
+  Real wire(PathContext& c, const PatchPoint& at) const noexcept;
 };
 
 }  // namespace vestige::particle
