@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace vestige {
 namespace {
@@ -17,6 +18,44 @@ double sane(double power) { return std::isfinite(power) && power > 0 ? power : 0
 /// What a cluster costs [CK18 Sec. 4.1, simplified]: power, spread in space and in directions.
 Real cost(const LightCluster& c) noexcept {
   return c.power * lengthSquared(c.box.size()) * (Real(0.1) + 1 - std::cos(c.angle + c.reach));
+}
+
+/// Shares of 1 by power, with an even part by count. `counts`: how many lights each power is of.
+std::vector<double> sharesOf(const std::vector<double>& powers, const std::vector<double>& counts) {
+  double power = 0, count = 0;
+  for (const double p : powers) power += sane(p);
+  for (const double c : counts) count += c;
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    const double even = counts[i] / count;
+    shares.push_back(power > 0 ? (1 - kEvenShare) * sane(powers[i]) / power + kEvenShare * even
+                               : even);
+  }
+  return shares;
+}
+
+/// Lights that share one part of all choices.
+struct LightGroup {
+  std::vector<double> powers, counts;
+
+  void add(double power, double count) {
+    powers.push_back(power);
+    counts.push_back(count);
+  }
+  double power() const { return std::accumulate(powers.begin(), powers.end(), 0.0); }
+  double count() const { return std::accumulate(counts.begin(), counts.end(), 0.0); }
+};
+
+/// Chances of all entries of two groups, one after the other: half to each if both have power.
+std::vector<double> chancesOf(const LightGroup& first, const LightGroup& second) {
+  std::vector<double> halves = {0.5, 0.5};
+  if (!(first.power() > 0 && second.power() > 0) && first.count() + second.count() > 0)
+    halves = sharesOf({first.power(), second.power()}, {first.count(), second.count()});
+  std::vector<double> chances;
+  for (const LightGroup* group : {&first, &second})
+    for (const double share : sharesOf(group->powers, group->counts))
+      chances.push_back(halves[group == &first ? 0 : 1] * share);
+  return chances;
 }
 
 struct Bin {
@@ -61,24 +100,25 @@ Part bestAlong(int axis, const Bounds& centres, std::span<const std::int32_t> li
 
 }  // namespace
 
-void LightTable::build(const std::vector<double>& powers, const std::vector<double>& counts) {
-  double total = 0, all = 0, sum = 0;
-  const auto count = [&](std::size_t i) { return counts.empty() ? 1.0 : counts[i]; };
-  for (std::size_t i = 0; i < powers.size(); ++i) total += sane(powers[i]), all += count(i);
-  chances_.clear(), upTo_.clear();
-  for (std::size_t i = 0; i < powers.size(); ++i) {
-    const double even = count(i) / all;
-    const double chance =
-        total > 0 ? (1 - kEvenShare) * sane(powers[i]) / total + kEvenShare * even : even;
+void LightTable::build(const std::vector<double>& powers) {
+  set(sharesOf(powers, std::vector<double>(powers.size(), 1)));
+}
+
+void LightTable::set(const std::vector<double>& chances) {
+  double sum = 0;
+  chances_.clear();
+  upTo_.clear();
+  for (const double chance : chances) {
+    sum += chance;
     chances_.push_back(Real(chance));
-    upTo_.push_back(Real(sum += chance));
+    upTo_.push_back(Real(sum));
   }
 }
 
 LightChoice LightTable::choose(Real u) const noexcept {
   const auto found = std::upper_bound(upTo_.begin(), upTo_.end() - 1, u);
   const int entry = int(found - upTo_.begin());
-  const Real low = entry > 0 ? upTo_[std::size_t(entry) - 1] : 0;
+  const Real low = chanceBefore(entry);
   return {entry, chance(entry), std::clamp((u - low) / chance(entry), Real(0), kOneMinusEpsilon)};
 }
 
@@ -125,44 +165,45 @@ Real LightCluster::importance(Vec3 at) const noexcept {
 
 void LightTree::build(std::span<const Light* const> lights) {
   std::vector<LightCluster> clusters;
-  std::vector<double> powers, counts;
-  std::vector<std::int32_t> inside;
-  double insidePower = 0;
-  outside_.clear(), nodes_.clear(), parents_.clear(), places_.clear();
+  std::vector<std::int32_t> inside, unplaced;
+  std::vector<double> powers;
+  outside_.clear(), nodes_.clear(), parents_.clear();
+  places_.assign(lights.size(), {-1, -1});
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const Light& light = *lights[i];
     const LightTraits traits = light.traits();
-    if (!traits.isDrawn && !traits.isDelta) {
-      places_.push_back({-1, -1});
-      clusters.emplace_back(LightExtent{}, Real(0));
-      continue;
-    }
-    const double power = sane(double(luminance(light.power())));
+    powers.push_back(sane(double(luminance(light.power()))));
     const LightExtent extent = light.extent();
-    const bool isSomewhere =
-        !traits.isInfinite && !extent.box.isEmpty() && !extent.box.isInfinite();
-    places_.push_back({int(outside_.size()), isSomewhere ? 0 : -1});
-    clusters.emplace_back(extent, Real(power));
-    if (isSomewhere) {
-      inside.push_back(int(i)), insidePower += power;
-    } else {
-      outside_.push_back(int(i)), powers.push_back(power), counts.push_back(1);
-    }
+    clusters.emplace_back(extent, Real(powers.back()));
+    if (!traits.isDrawn && !traits.isDelta) continue;
+    const bool isPlaced = !extent.box.isEmpty() && !extent.box.isInfinite();
+    (traits.isInfinite ? outside_ : isPlaced ? inside : unplaced).push_back(std::int32_t(i));
   }
-  if (!inside.empty()) {
-    // A power that is unknown, or told too small, must not make a light dark.
-    const double least = insidePower > 0 ? kEvenShare * insidePower / double(inside.size()) : 1;
-    for (const std::int32_t l : inside)
-      clusters[std::size_t(l)].power = std::max(clusters[std::size_t(l)].power, Real(least));
-    powers.push_back(insidePower), counts.push_back(double(inside.size()));
-    nodes_.push_back({clusters[std::size_t(inside[0])], 0});
-    parents_.push_back(-1);
-    grow(0, inside, clusters);
-    for (const std::int32_t l : inside) places_[std::size_t(l)].entry = int(outside_.size());
-  }
-  table_.build(powers, counts);
+  LightGroup infinite, finite;
+  for (const std::int32_t l : outside_) infinite.add(powers[std::size_t(l)], 1);
+  for (const std::int32_t l : unplaced) finite.add(powers[std::size_t(l)], 1);
+  outside_.insert(outside_.end(), unplaced.begin(), unplaced.end());
+  for (std::size_t k = 0; k < outside_.size(); ++k)
+    places_[std::size_t(outside_[k])].entry = std::int32_t(k);
+  if (!inside.empty()) finite.add(growAll(inside, clusters), double(inside.size()));
+  table_.set(chancesOf(infinite, finite));
   only_ = -1;
   if (inside.size() + outside_.size() == 1) only_ = inside.empty() ? outside_[0] : inside[0];
+}
+
+double LightTree::growAll(std::span<std::int32_t> lights, std::vector<LightCluster>& clusters) {
+  double power = 0;
+  for (const std::int32_t l : lights) power += double(clusters[std::size_t(l)].power);
+  // A light whose power is unknown or too small must not become dark.
+  const double least = power > 0 ? kEvenShare * power / double(lights.size()) : 1;
+  for (const std::int32_t l : lights) {
+    clusters[std::size_t(l)].power = std::max(clusters[std::size_t(l)].power, Real(least));
+    places_[std::size_t(l)].entry = std::int32_t(outside_.size());
+  }
+  nodes_.push_back({clusters[std::size_t(lights[0])], 0});
+  parents_.push_back(-1);
+  grow(0, lights, clusters);
+  return power;
 }
 
 void LightTree::grow(std::int32_t node, std::span<std::int32_t> lights,
@@ -202,12 +243,18 @@ std::optional<Real> LightTree::firstChance(std::int32_t first, Vec3 at) const no
   return a + b > 0 ? std::optional(a / (a + b)) : std::nullopt;
 }
 
+bool LightTree::skipsTree(Vec3 at) const noexcept {
+  return !outside_.empty() && !nodes_.empty() && !(nodes_[0].cluster.importance(at) > 0);
+}
+
 std::optional<LightChoice> LightTree::choose(const Receiver& r, Real u) const noexcept {
   if (table_.isEmpty()) return std::nullopt;
   if (only_ >= 0) return LightChoice{only_, 1, u};  // most scenes have one
-  const LightChoice entry = table_.choose(u);
-  if (entry.light < int(outside_.size()))
-    return LightChoice{outside_[std::size_t(entry.light)], entry.chance, entry.rest};
+  const int tree = int(outside_.size());
+  const Real all = skipsTree(r.position) ? table_.chanceBefore(tree) : Real(1);
+  const LightChoice entry = table_.choose(u * all);
+  if (entry.light < tree)
+    return LightChoice{outside_[std::size_t(entry.light)], entry.chance / all, entry.rest};
   Real chance = entry.chance;
   u = entry.rest;
   for (std::int32_t node = 0;;) {
@@ -227,7 +274,12 @@ Real LightTree::chance(int light, const Receiver& r) const noexcept {
   if (light == only_) return 1;
   const Place& place = places_[std::size_t(light)];
   if (place.entry < 0) return 0;
-  Real chance = table_.chance(place.entry);
+  const int tree = int(outside_.size());
+  const bool skips = skipsTree(r.position);
+  if (place.entry < tree)
+    return table_.chance(place.entry) / (skips ? table_.chanceBefore(tree) : Real(1));
+  if (skips) return 0;
+  Real chance = table_.chance(tree);
   for (std::int32_t node = place.node; node > 0; node = parents_[std::size_t(node)]) {
     const std::int32_t first = node - (node % 2 == 1 ? 0 : 1);
     const std::optional<Real> p = firstChance(first, r.position);

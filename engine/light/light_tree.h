@@ -11,17 +11,22 @@
 
 namespace vestige {
 
-/// Chances by power, the same everywhere; each with a least chance, so that none is starved by a
-/// bright sun.
+/// Chances by power, the same everywhere; each light has a least chance, so that a bright sun does
+/// not starve the others.
 class LightTable {
  public:
-  /// What is not a number above 0 counts as 0. `counts`: how many lights stand behind each power,
-  /// if not one.
-  void build(const std::vector<double>& powers, const std::vector<double>& counts = {});
+  /// A power that is not a number above 0 counts as 0.
+  void build(const std::vector<double>& powers);
+  /// Takes the chances as they are; their sum is 1.
+  void set(const std::vector<double>& chances);
   bool isEmpty() const noexcept { return chances_.empty(); }
   /// Draws an entry by u in [0,1).
   LightChoice choose(Real u) const noexcept;
   Real chance(int entry) const noexcept { return chances_[std::size_t(entry)]; }
+  /// The chance of all entries before this one together.
+  Real chanceBefore(int entry) const noexcept {
+    return entry > 0 ? upTo_[std::size_t(entry) - 1] : Real(0);
+  }
 
  private:
   std::vector<Real> chances_, upTo_;
@@ -42,16 +47,17 @@ struct LightCluster {
   Real importance(Vec3 at) const noexcept;
 };
 
-/// A binary tree over all lights that are somewhere; those that are not (at infinity, or of no
-/// extent) are chosen by power beside it. Lights that want no rays drawn towards them have no
-/// chance.
+/// A binary tree over all lights with a known extent. The others (at infinity, or of unknown
+/// extent) are chosen by power beside the tree. Where there are lights at infinity and finite ones,
+/// each of the two groups gets half of the choices: the power of a sky grows with the scene and
+/// says little about what arrives at a point indoors. Lights that are not drawn have no chance.
 class LightTree {
  public:
   void build(std::span<const Light* const> lights);
 
-  /// Nullopt: there is none, or none of those it came down to reaches the receiver.
+  /// Nullopt: there is no light, or none of those in the branch that u leads to reaches the receiver.
   std::optional<LightChoice> choose(const Receiver& r, Real u) const noexcept;
-  /// Of choose() saying so, [0,1].
+  /// The probability that choose() returns this light, [0,1].
   Real chance(int light, const Receiver& r) const noexcept;
 
  private:
@@ -64,13 +70,17 @@ class LightTree {
     std::int32_t node;   ///< its leaf; below 0: none
   };
 
+  /// Makes the tree; returns its power, W.
+  double growAll(std::span<std::int32_t> lights, std::vector<LightCluster>& clusters);
   void grow(std::int32_t node, std::span<std::int32_t> lights,
             const std::vector<LightCluster>& clusters);
+  /// Whether nothing of the tree reaches a point and its share goes to the lights beside it.
+  bool skipsTree(Vec3 at) const noexcept;
   /// Of the first of two neighbours, in place of the second; nullopt: nothing arrives from either.
   std::optional<Real> firstChance(std::int32_t first, Vec3 at) const noexcept;
 
-  LightTable table_;                   ///< lights beside the tree in order, then the tree
-  std::vector<std::int32_t> outside_;  ///< lights beside the tree
+  LightTable table_;                   ///< lights as in outside_, then the tree
+  std::vector<std::int32_t> outside_;  ///< lights beside the tree, those at infinity first
   std::vector<Node> nodes_;            ///< [0] is the root; pairs of children side by side
   std::vector<std::int32_t> parents_;  ///< of nodes
   std::vector<Place> places_;          ///< by light

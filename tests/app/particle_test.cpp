@@ -55,6 +55,23 @@ TEST_CASE("parts of the particles add up to all of them", "[app][particle]") {
   CHECK(areSame(folder / "a.exr", folder / "b.exr"));
 }
 
+TEST_CASE("parts that do not add up to the bit are warned about", "[app][particle]") {
+  const Folder folder;
+  const auto said = [&](const std::string& settings) {
+    const std::string scene = folder.write("a.scene", room("particles 2000 " + settings));
+    const Run r = runVestige({scene, "-o", folder / "a.png", "--spp", "1"});
+    CHECK(r.exit == 0);
+    return r.err;
+  };
+  for (const char* how : {"parts 2", "part 2 parts 2 oracle \"variance\" edges off"}) {
+    const std::string err = said(how);
+    CHECK_THAT(err, containsText("not the same to the bit"));
+    CHECK_THAT(err, containsText("edges off"));
+  }
+  for (const char* how : {"", "parts 2 edges off", "parts 2 oracle \"uniform\""})
+    CHECK_THAT(said(how), !containsText("to the bit"));
+}
+
 TEST_CASE("solutions that cannot be read or written are told before any work", "[app][particle]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", room("particles 1000000000"));

@@ -26,20 +26,21 @@ class Lamp final : public Light {
   Real pdf(const Receiver&, const LightHit&) const noexcept override { return 0; }
   Rgb eval(const LightHit&) const noexcept override { return {}; }
   LightExtent extent() const noexcept override {
-    if (isAnywhere) return {};
+    if (isAnywhere || isAtInfinity) return {};
     return {{location_, location_}, axis_, 0, reach_};
   }
+  bool isInfinite() const noexcept override { return isAtInfinity; }
   Rgb power() const noexcept override { return grey(watts_); }
 
   /// Across the way to it.
   double irradiance(Vec3 at) const {
     const Vec3 way = at - location_;
-    if (isAnywhere) return double(watts_);
+    if (isAnywhere || isAtInfinity) return double(watts_);
     if (dot(normalize(way), axis_) < std::cos(reach_)) return 0;
     return double(watts_ / lengthSquared(way));
   }
 
-  bool isAnywhere = false, isWanted = true;
+  bool isAnywhere = false, isAtInfinity = false, isWanted = true;
 
  private:
   Vec3 location_, axis_;
@@ -74,7 +75,8 @@ Lamps mixture(int n, std::uint32_t seed) {
     const Real reach = i % 3 == 0 ? kPi : Real(0.2) + r.number() * 2;
     const Vec3 location = within(10, r);
     lamps.add({location, 10 * sqr(r.number()), axis, reach});
-    if (i % 20 == 7) lamps.owned.back()->isAnywhere = true;
+    if (i % 40 == 7) lamps.owned.back()->isAtInfinity = true;
+    if (i % 40 == 27) lamps.owned.back()->isAnywhere = true;
   }
   lamps.build();
   return lamps;
@@ -111,6 +113,78 @@ TEST_CASE("lights are chosen with the chances that are told", "[lights]") {
         if (drawn[l] > 0) sum += chance;
       }
       CHECK(sum == Approx(1).margin(2e-3));
+    }
+  }
+}
+
+TEST_CASE("lights at infinity and finite ones get half of the choices each", "[lights]") {
+  // The sky has a million times the power of the lamps, which shine upwards.
+  Lamps lamps;
+  lamps.add({{}, Real(3e6)}).isAtInfinity = true;
+  for (int i = 0; i < 3; ++i) lamps.add({{Real(i), 0, 0}, 1, {0, 1, 0}, Real(0.5)});
+  lamps.add({{}, Real(1e6)}).isAtInfinity = true;
+  lamps.build();
+  const auto chance = [&](int light, Vec3 at) { return double(lamps.tree.chance(light, at)); };
+  // By power among themselves, a tenth of it evenly.
+  const double above = 0.9 * 0.75 + 0.1 * 0.5;
+  const Vec3 lit{1, 50, 0}, dark{1, -50, 0};
+  CHECK(chance(0, lit) == Approx(0.5 * above).epsilon(1e-5));
+  CHECK(chance(4, lit) == Approx(0.5 * (1 - above)).epsilon(1e-5));
+  CHECK(chance(1, lit) + chance(2, lit) + chance(3, lit) == Approx(0.5).epsilon(1e-5));
+  // No lamp reaches a point below: all choices go to the sky.
+  CHECK(chance(0, dark) == Approx(above).epsilon(1e-5));
+  CHECK(chance(4, dark) == Approx(1 - above).epsilon(1e-5));
+  for (const int lamp : {1, 2, 3}) CHECK(chance(lamp, dark) == 0);
+  const auto last = lamps.tree.choose(dark, kOneMinusEpsilon);
+  REQUIRE(last);
+  CHECK(last->light == 4);
+
+  // Without power known on one side, or without lights there, the other gets (nearly) all.
+  Lamps black;
+  black.add({{}, 0}).isAtInfinity = true;
+  black.add({{0, 0, 0}, 1});
+  black.build();
+  CHECK(double(black.tree.chance(0, lit)) == Approx(0.05).epsilon(1e-5));
+  CHECK(double(black.tree.chance(1, lit)) == Approx(0.95).epsilon(1e-5));
+  Lamps unlit;
+  unlit.add({{}, 5}).isAtInfinity = true;
+  unlit.add({{0, 0, 0}, 0});
+  unlit.build();
+  CHECK(double(unlit.tree.chance(0, lit)) == Approx(0.95).epsilon(1e-5));
+}
+
+TEST_CASE("draws have the frequencies that chances say", "[lights]") {
+  // Pearson's statistic of random draws; 5 deviations beyond its mean.
+  for (const bool hasSky : {false, true}) {
+    Lamps lamps;
+    Random r(21);
+    for (int i = 0; i < 12; ++i)
+      lamps.add({within(4, r), Real(0.5) + r.number(), {0, 1, 0}, Real(0.8)});
+    for (int i = 0; hasSky && i < 3; ++i) lamps.add({{}, Real(100 * (i + 1))}).isAtInfinity = true;
+    lamps.build();
+    for (const Vec3 at : {Vec3{0, 20, 0}, Vec3{1, 1, 0}, Vec3{3, -20, 1}, Vec3{0, -60, 0}}) {
+      constexpr int kDraws = 50000;
+      std::vector<int> drawn(lamps.list.size() + 1);  // the last: none
+      for (int i = 0; i < kDraws; ++i) {
+        const auto choice = lamps.tree.choose(at, r.number());
+        ++drawn[choice ? std::size_t(choice->light) : lamps.list.size()];
+      }
+      double sum = 0, statistic = 0;
+      int freedoms = -1;
+      for (std::size_t l = 0; l < drawn.size(); ++l) {
+        const bool isNone = l == lamps.list.size();
+        const double chance = isNone ? 1 - sum : double(lamps.tree.chance(int(l), at));
+        sum += chance;
+        if (chance < 1e-6) {
+          CHECK(drawn[l] == 0);
+          continue;
+        }
+        ++freedoms;
+        statistic += sqr(drawn[l] - kDraws * chance) / (kDraws * chance);
+      }
+      INFO(hasSky << ' ' << at.y << ": " << statistic << " with " << freedoms);
+      CHECK(statistic < freedoms + 5 * std::sqrt(2 * std::max(freedoms, 1)));
+      if (hasSky) CHECK(drawn.back() < kDraws / 2);
     }
   }
 }

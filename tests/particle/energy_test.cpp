@@ -36,7 +36,7 @@ void checkSame(const Solution& a, const Solution& b) {
   const Irradiance right(b.scene->view(), *b.hierarchy, b.scale());
   CHECK(left.leaves() == right.leaves());
   for (int i = 0; i < 20000; ++i) {
-    Place p{i % n, false, {Real(i % 131) / 131, Real(i % 137) / 137}};
+    PatchPoint p{i % n, false, {Real(i % 131) / 131, Real(i % 137) / 137}};
     REQUIRE(left.at(p, false).r == right.at(p, false).r);
     REQUIRE(left.at(p, true).b == right.at(p, true).b);
     REQUIRE(left.element(p).id == right.element(p).id);

@@ -101,7 +101,7 @@ TEST_CASE("clusters gather patches of one plane, not what they do not face", "[p
   CHECK(widest <= 16.001);  // the floor, never with the wall or the far tile
   CHECK(widest >= 15.999);
 
-  const Place place{5, false, {Real(0.5), Real(0.5)}};
+  const PatchPoint place{5, false, {Real(0.5), Real(0.5)}};
   h.deposit(place, 1000, {8, 8, 8});
   const ElementId e = hit(h);
   CHECK(e >= h.firstCluster());
@@ -127,7 +127,7 @@ TEST_CASE("a plane has elements around the scene and none far away", "[particle]
   const auto below = [&](Vec3 from) {
     Surface s;
     REQUIRE(view.intersect(Ray{from, {0, -1, 0}, 0, kInfinity}, s));
-    return placeOf(s, {0, 1, 0});
+    return patchPointOf(s, {0, 1, 0});
   };
   CHECK(h.root(below({12, 5, 7})) == Hierarchy::rootOf(plane, false));
   CHECK(h.root(below({1000, 5, 7})) == 0);
@@ -155,7 +155,7 @@ TEST_CASE("many threads divide the same elements once", "[particle]") {
   const Irradiance a(scene->view(), *one, 1), b(scene->view(), *four, 1);
   CHECK(a.leaves() == b.leaves());
   for (int i = 0; i < 3000; ++i) {
-    const Place p{i % 6, false, {Real(i % 71) / 71, Real(i % 73) / 73}};
+    const PatchPoint p{i % 6, false, {Real(i % 71) / 71, Real(i % 73) / 73}};
     REQUIRE(a.at(p, false).g == b.at(p, false).g);
     REQUIRE(a.at(p, true).g == b.at(p, true).g);
     REQUIRE(a.element(p).id == b.element(p).id);

@@ -48,9 +48,9 @@ TEST_CASE("even light is even, on elements and between them", "[particle]") {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> number;
     for (int i = 0; i < 2000; ++i) {
-      Place p{i % int(scene->view().patches().size()),
-              false,
-              {Real(number(random)), Real(number(random))}};
+      PatchPoint p{i % int(scene->view().patches().size()),
+                   false,
+                   {Real(number(random)), Real(number(random))}};
       if (p.uv.x + p.uv.y > 1) p.uv = {1 - p.uv.x, 1 - p.uv.y};
       REQUIRE(light.at(p, false).r == Approx(1).epsilon(1e-4));
       REQUIRE(light.at(p, true).r == Approx(1).epsilon(1e-4));
@@ -84,7 +84,7 @@ TEST_CASE("between vertices nothing jumps: not in a patch, not from one to the n
   const auto at = [&](Real x, Real y) {
     Surface s;
     REQUIRE(scene->view().intersect(Ray{{x, y, -5}, {0, 0, 1}, 0, kInfinity}, s));
-    return double(light.at(placeOf(s, {0, 0, -1}), true).r);
+    return double(light.at(patchPointOf(s, {0, 0, -1}), true).r);
   };
   double highest = 0, jump = 0, slope = 0;
   for (int i = 0; i < 40000; ++i) {
@@ -135,7 +135,8 @@ TEST_CASE("all elements of a closed room together get what its lamp sends, and s
   for (int patch = 0; patch < 6; ++patch)
     for (const bool back : {false, true})
       for (int i = 0; i < kSide * kSide; ++i) {
-        const Place p{patch, back, {Real(i % kSide + 0.5) / kSide, Real(i / kSide + 0.5) / kSide}};
+        const PatchPoint p{
+            patch, back, {Real(i % kSide + 0.5) / kSide, Real(i / kSide + 0.5) / kSide}};
         const SeenElement e = light.seen(p);
         CHECK_FALSE(e.area <= 0);
         if (light.at(p, false).r > 0)

@@ -3,7 +3,7 @@
 // mirrors, under open sky.
 #include <fstream>
 
-#include "engine/render/session.h"
+#include "particle/picture.h"
 #include "particle/solve.h"
 #include "support/temp_folder.h"
 
@@ -11,29 +11,6 @@ using namespace vestige;
 using namespace vestige::particle;
 
 namespace {
-
-struct Picture {
-  std::vector<double> grey;
-  double mean = 0;
-  std::vector<double> albedo, level;
-};
-
-Picture pictureOf(const std::string& text, const std::string& integrator, int samples,
-                  int threads = 2) {
-  const auto scene = test::sceneOf(text + "film { resolution <32, 32> }\nintegrator " + integrator);
-  Film film = makeFilm(*scene, 0, 0, nullptr, {Aov::albedo, Aov::elementLevel});
-  RenderOptions options;
-  options.samples = samples, options.threads = threads;
-  render(*scene, film, options);
-  const Film::Means m = film.means();
-  Picture p;
-  for (std::size_t i = 0; i < m.pixels.size(); i += m.channels.size()) {
-    p.grey.push_back((double(m.pixels[i]) + double(m.pixels[i + 1]) + double(m.pixels[i + 2])) / 3);
-    p.albedo.push_back(double(m.pixels[i + 3])), p.level.push_back(double(m.pixels[i + 6]));
-    p.mean += p.grey.back() / (32 * 32);
-  }
-  return p;
-}
 
 /// Its normals lean by up to 55 degrees: what arrives is not what the flat face would say.
 std::string octahedron() {
@@ -44,10 +21,6 @@ std::string octahedron() {
                          "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
   return file;
 }
-
-const std::string kLamp =
-    "light area { <0.5, 1.99, 0.5>, <1, 0, 0>, <0, 0, 1> radiance rgb <10, 9, 7> }\n";
-const std::string kWalls = box("brdf lambert { diffuse rgb <0.6, 0.5, 0.4> }") + kLamp;
 
 const std::pair<const char*, std::string> kScenes[] = {
     {"a matt ball", kWalls + "sphere { <1, 0.6, 1.2>, 0.5 }\n"},
@@ -120,7 +93,7 @@ TEST_CASE("clusters keep all flux, and keep it to what is matt", "[particle]") {
     const auto patches = s.scene->view().patches();
     for (std::size_t i = 0; i < patches.size(); ++i)
       for (const bool back : {false, true})
-        for (int k = 0; k < 4096 && s.hierarchy->isMatt(patches[i].object);
+        for (int k = 0; k < 4096 && s.hierarchy->keeps({int(i), back, {Real(0.5), Real(0.25)}});
              ++k)  // finer than the elements, but for a few
         {
           const Vec2 uv = {(Real(k % 64) + Real(0.5)) / 64, (Real(k / 64) + Real(0.5)) / 64};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene from its text, with the plugins of this build.
+// A scene from its text, with the plugins of this build or others.
 #pragma once
 #include "lang/lang.h"
 #include "support/catch.h"
@@ -8,11 +8,12 @@
 
 namespace vestige::test {
 
-inline std::unique_ptr<Scene> sceneOf(const std::string& text) {
+inline std::unique_ptr<Scene> sceneOf(const std::string& text,
+                                      const Registry& plugins = registry()) {
   std::vector<Schema> schemas;
-  for (const Schema* s : registry().schemas()) schemas.push_back(*s);
+  for (const Schema* s : plugins.schemas()) schemas.push_back(*s);
   lang::Result read = lang::readSceneText("test.scene", text, SchemaList(schemas), {});
-  auto scene = buildScene(read.scene, registry(), {}, read.diagnostics);
+  auto scene = buildScene(read.scene, plugins, {}, read.diagnostics);
   std::string said;
   for (const Diagnostic& d : read.diagnostics.list()) said += d.message + '\n';
   INFO(said);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hierarchy.h"
 
+#include <algorithm>
+#include <numeric>
+#include <span>
 #include <thread>
 
 #include "clusters.h"
@@ -42,28 +45,56 @@ bool isUneven(const Element& e, const double (&areas)[4]) noexcept {
 /// Fewer hits say nothing.
 constexpr std::uint64_t kLeastHits = 8;
 
-/// Objects that are matt somewhere, by a look at some points of theirs.
-std::vector<bool> mattObjects(const SceneView& scene) {
-  constexpr int kMostLooks = 256;
-  constexpr Vec2 kPoints[4] = {{Real(0.3), Real(0.3)},
-                               {Real(0.62), Real(0.11)},
-                               {Real(0.05), Real(0.45)},
-                               {Real(0.21), Real(0.07)}};
-  std::vector<bool> isMatt;
-  std::vector<int> looks;
-  for (std::size_t i = 0; i < scene.patches().size(); ++i) {
-    const auto object = std::size_t(scene.patches()[i].object);
-    if (object >= isMatt.size()) isMatt.resize(object + 1), looks.resize(object + 1);
-    for (int k = 0; k < 4 && !isMatt[object] && looks[object]++ < kMostLooks; ++k) {
-      Surface s;
-      static_cast<SurfacePoint&>(s) = scene.patchPoint(int(i), kPoints[k]);
-      s.object = int(object), s.patch = int(i), s.patchUv = kPoints[k];
-      InputBuffer inputs;
-      const Interaction x = scene.shade(s, s.geometricNormal, {}, inputs);
-      isMatt[object] = x.brdf && !isBlack(x.brdf->diffuse(x.point).albedo);
-    }
+/// Whether a material has a diffuse part at a point of a patch, seen from either side.
+bool isDiffuseAt(const SceneView& scene, int patch, Vec2 uv) noexcept {
+  Surface s;
+  static_cast<SurfacePoint&>(s) = scene.patchPoint(patch, uv);
+  s.object = scene.patches()[std::size_t(patch)].object;
+  s.patch = patch;
+  s.patchUv = uv;
+  for (const Vec3 toPrev : {s.geometricNormal, -s.geometricNormal}) {
+    InputBuffer inputs;
+    const Interaction x = scene.shade(s, toPrev, {}, inputs);
+    if (x.brdf && !isBlack(x.brdf->diffuse(x.point).albedo)) return true;
   }
-  return isMatt;
+  return false;
+}
+
+/// Looks at points all over an object until one is diffuse. `patches`: all of the object. The
+/// points follow the additive recurrence in three dimensions [Roberts 2018, "The unreasonable
+/// effectiveness of quasirandom sequences", R3]: patch, u and v.
+bool isDiffuse(const SceneView& scene, std::span<const int> patches) noexcept {
+  constexpr std::size_t kMostLooks = 1024, kLooksAtPatch = 64;
+  constexpr double kStep[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+  const std::size_t looks = std::min(kMostLooks, kLooksAtPatch * patches.size());
+  for (std::size_t i = 0; i < looks; ++i) {
+    double at[3];
+    for (int k = 0; k < 3; ++k) at[k] = std::fmod(0.5 + double(i) * kStep[k], 1.0);
+    const int patch = patches[std::size_t(at[0] * double(patches.size()))];
+    Vec2 uv{Real(at[1]), Real(at[2])};
+    if (scene.patches()[std::size_t(patch)].isTriangle && uv.x + uv.y > 1)
+      uv = {1 - uv.x, 1 - uv.y};
+    if (isDiffuseAt(scene, patch, uv)) return true;
+  }
+  return false;
+}
+
+/// By patch: whether its object counts as diffuse.
+std::vector<bool> diffusePatches(const SceneView& scene) {
+  const auto patches = scene.patches();
+  std::vector<int> byObject(patches.size());
+  std::iota(byObject.begin(), byObject.end(), 0);
+  const auto objectOf = [&](int patch) { return patches[std::size_t(patch)].object; };
+  std::stable_sort(byObject.begin(), byObject.end(),
+                   [&](int a, int b) { return objectOf(a) < objectOf(b); });
+  std::vector<bool> result(patches.size());
+  for (std::size_t first = 0, last = 0; first < byObject.size(); first = last) {
+    while (last < byObject.size() && objectOf(byObject[last]) == objectOf(byObject[first])) ++last;
+    const auto own = std::span<const int>(byObject).subspan(first, last - first);
+    if (!isDiffuse(scene, own)) continue;
+    for (const int patch : own) result[std::size_t(patch)] = true;
+  }
+  return result;
 }
 
 bool hasInfiniteLight(const SceneView& scene) noexcept {
@@ -74,8 +105,9 @@ bool hasInfiniteLight(const SceneView& scene) noexcept {
 }  // namespace
 
 Hierarchy::Hierarchy(const SceneView& scene, const HierarchySettings& settings)
-    : scene_(scene), settings_(settings), isMatt_(mattObjects(scene)) {
+    : scene_(scene), settings_(settings) {
   const auto patches = scene.patches();
+  const std::vector<bool> isDiffuse = diffusePatches(scene);
   firstCluster_ = clusterEnd_ = rootOf(int(patches.size()), false);
   std::vector<ClusterMember> members;
   // Light from infinity is sent to what is finite only: a plane gets too little of it.
@@ -86,7 +118,7 @@ Hierarchy::Hierarchy(const SceneView& scene, const HierarchySettings& settings)
       planeOf_.resize(patches.size(), -1);
       planeOf_[i] = int(planes_.size());
       planes_.push_back(isOpen ? Cell{{}, {}, {}} : aroundEverything(scene, int(i)));
-    } else if (settings.clusters && isMatt(p.object) && lengthSquared(p.normal) > 0 && p.area > 0) {
+    } else if (settings.clusters && isDiffuse[i] && lengthSquared(p.normal) > 0 && p.area > 0) {
       const Vec3 centre = Real(0.5) * (p.bounds.low + p.bounds.high);
       for (const bool back : {false, true})
         members.push_back(
@@ -100,6 +132,7 @@ Hierarchy::Hierarchy(const SceneView& scene, const HierarchySettings& settings)
   const auto idOf = [&](std::uint32_t above) { return above ? firstCluster_ + above - 1 : 0; };
   for (std::size_t i = 0; i < patches.size(); ++i)
     for (const bool back : {false, true}) {
+      if (!isDiffuse[i]) continue;  // an area of 0: nothing is kept there
       Element& e = elements_[rootOf(int(i), back)];
       const Cell cell = cellOf(int(i));
       e.area = float(std::isfinite(patches[i].area)
@@ -120,13 +153,13 @@ Cell Hierarchy::cellOf(int patch) const noexcept {
   return {{}, {1, 0}, {0, 1}, scene_.patches()[std::size_t(patch)].isTriangle};
 }
 
-Vec2 Hierarchy::local(const Place& p) const noexcept {
+Vec2 Hierarchy::local(const PatchPoint& p) const noexcept {
   if (planeOf_.empty() || planeOf_[std::size_t(p.patch)] < 0) return p.uv;
   const Cell c = planes_[std::size_t(planeOf_[std::size_t(p.patch)])];
   return {(p.uv.x - c.origin.x) / c.a.x, (p.uv.y - c.origin.y) / c.b.y};
 }
 
-ElementId Hierarchy::root(const Place& p) const noexcept {
+ElementId Hierarchy::root(const PatchPoint& p) const noexcept {
   if (p.patch < 0) return 0;
   const ElementId e = rootOf(p.patch, p.back);
   if (!(elements_[e].area > 0)) return 0;
@@ -169,7 +202,7 @@ ElementId Hierarchy::divide(ElementId id, int patch, const Cell& cell) {
   return first;
 }
 
-void Hierarchy::deposit(const Place& p, Real footprintArea, const Flux& flux) {
+void Hierarchy::deposit(const PatchPoint& p, Real footprintArea, const Flux& flux) {
   ElementId e = root(p);
   if (e == 0) return;
   const Real area = settings_.oracle == Oracle::variance  ? kInfinity

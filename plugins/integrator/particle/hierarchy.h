@@ -35,12 +35,12 @@ struct HierarchySettings {
 };
 
 /// A point on one side of a patch.
-struct Place {
-  int patch = -1;
+struct PatchPoint {
+  int patch = -1;     ///< below 0: the shape offers no patches
   bool back = false;  ///< seen against the geometric normal
   Vec2 uv;            ///< patchUv
 };
-inline Place placeOf(const Surface& s, Vec3 toPrev) noexcept {
+inline PatchPoint patchPointOf(const Surface& s, Vec3 toPrev) noexcept {
   return {s.patch, dot(toPrev, s.geometricNormal) < 0, s.patchUv};
 }
 
@@ -48,13 +48,20 @@ class Hierarchy {
  public:
   Hierarchy(const SceneView& scene, const HierarchySettings& settings);
 
-  /// The whole of one side of a patch; 0 where there are no elements: no patch, or a place on an
-  /// infinite plane far outside of everything else.
-  ElementId root(const Place& p) const noexcept;
+  /// The whole of one side of a patch; 0 where there are no elements: there is no patch, its object
+  /// does not count as diffuse, or the point lies on an infinite plane far outside of everything
+  /// else.
+  ElementId root(const PatchPoint& p) const noexcept;
 
-  /// Where a particle with a footprint of that area, scene units squared, leaves its flux.
-  /// Divides where it must. [any thread]
-  void deposit(const Place& p, Real footprintArea, const Flux& flux);
+  /// Whether light is kept at a point. Particles leave flux where this holds, and eye paths take
+  /// the diffuse part from the elements only where this holds: anywhere else rays find it. Where a
+  /// texture makes a diffuse object black light is kept as well, or its neighbours in the element
+  /// would get too little.
+  bool keeps(const PatchPoint& p) const noexcept { return root(p) != 0; }
+
+  /// Where a particle with a footprint of that area, scene units squared, leaves its flux; nothing
+  /// happens where light is not kept. Divides where it must. [any thread]
+  void deposit(const PatchPoint& p, Real footprintArea, const Flux& flux);
 
   /// Between passes: looks where hits vary; no division any more once memory is used up. True if
   /// that happened just now. [one thread]
@@ -63,10 +70,6 @@ class Hierarchy {
 
   /// Divides an element, unless it is. [any thread]
   ElementId divide(ElementId e, int patch, const Cell& cell);
-
-  /// Whether something of an object is matt: where a texture makes it black for a while, light is
-  /// left as well, or its neighbours in the element would get too little.
-  bool isMatt(int object) const noexcept { return isMatt_[std::size_t(object)]; }
 
   const Elements& elements() const noexcept { return elements_; }
   /// Elements from 1 to patches * 2 are roots (front, back), then come clusters.
@@ -79,8 +82,8 @@ class Hierarchy {
 
   /// The whole patch as a cell, in patchUv.
   Cell cellOf(int patch) const noexcept;
-  /// A place in the patch's own cell; in [0,1]^2 if root() is not 0.
-  Vec2 local(const Place& p) const noexcept;
+  /// The point in the patch's own cell; in [0,1]^2 if root() is not 0.
+  Vec2 local(const PatchPoint& p) const noexcept;
 
  private:
   bool mayDivide(const Element& e) const noexcept {
@@ -94,7 +97,6 @@ class Hierarchy {
 
   const SceneView& scene_;
   HierarchySettings settings_;
-  std::vector<bool> isMatt_;  ///< by object
   std::vector<Cell> planes_;  ///< of infinite patches: a square around everything else
   std::vector<int> planeOf_;  ///< by patch, index into planes_ or -1; empty: there are none
   Elements elements_;

@@ -174,11 +174,11 @@ class Irradiance::Build {
     }
   }
 
-  /// The vertex at a place of the leaf's patch; kNone if there is none and it is not to be made.
+  /// The vertex at a point of the leaf's patch; kNone if there is none and `make` is false.
   std::uint32_t vertex(const Leaf& l, Vec2 uv, bool make) {
     const SurfacePoint s = scene_.patchPoint(Hierarchy::patchOf(l.root), uv);
     const Vec3 normal = (l.root - 1) % 2 ? -s.normal : s.normal;
-    // Grid cells are much wider than what counts as the same: seldom is a second one asked.
+    // Grid cells are much wider than the tolerance: a second cell is seldom searched.
     const Real width = 16 * same_;
     const Vec3 low = (s.position - Vec3{same_, same_, same_}) / width;
     const Vec3 high = (s.position + Vec3{same_, same_, same_}) / width;
@@ -207,7 +207,8 @@ class Irradiance::Build {
     return part(x) << 42 | part(y) << 21 | part(z);
   }
 
-  /// A vertex in the middle of somebody's edge lies between the edge's ends, or there is a crack.
+  /// A vertex in the middle of another leaf's edge is interpolated between the edge's ends, or
+  /// there is a crack.
   void joinEdges() {
     for (const auto& level : byDepth_)
       for (const Leaf& l : level) {
@@ -259,12 +260,12 @@ Irradiance::Irradiance(const SceneView& scene, const Hierarchy& hierarchy, doubl
   Build(*this, scene, hierarchy, scale).run();
 }
 
-bool Irradiance::covers(const Place& p) const noexcept {
-  return hierarchy_ && hierarchy_->root(p) != 0;
+bool Irradiance::covers(const PatchPoint& p) const noexcept {
+  return hierarchy_ && hierarchy_->keeps(p);
 }
 
-Irradiance::Found Irradiance::find(const Place& p) const noexcept {
-  const ElementId root = hierarchy_->root(p);
+Irradiance::Found Irradiance::find(const PatchPoint& p) const noexcept {
+  const ElementId root = hierarchy_ ? hierarchy_->root(p) : 0;
   if (root == 0 || roots_[root] == 0) return {nullptr, {}, 0};
   const bool isTriangle = hierarchy_->cellOf(p.patch).isTriangle;
   Found f{&nodes_[roots_[root]], hierarchy_->local(p), mixed(root, 0)};
@@ -276,7 +277,7 @@ Irradiance::Found Irradiance::find(const Place& p) const noexcept {
   return f;
 }
 
-Rgb Irradiance::at(const Place& p, bool smooth) const noexcept {
+Rgb Irradiance::at(const PatchPoint& p, bool smooth) const noexcept {
   const Found f = find(p);
   if (!f.node) return {};
   if (!smooth) return f.node->e;
@@ -287,14 +288,14 @@ Rgb Irradiance::at(const Place& p, bool smooth) const noexcept {
   return (1 - v) * ((1 - u) * value(0) + u * value(1)) + v * ((1 - u) * value(3) + u * value(2));
 }
 
-ElementInfo Irradiance::element(const Place& p) const noexcept {
+ElementInfo Irradiance::element(const PatchPoint& p) const noexcept {
   const Found f = find(p);
   if (!f.node) return {};
   return {f.node->level, f.path >> 8};
 }
 
-SeenElement Irradiance::seen(const Place& p) const noexcept {
-  ElementId id = hierarchy_->root(p);
+SeenElement Irradiance::seen(const PatchPoint& p) const noexcept {
+  ElementId id = hierarchy_ ? hierarchy_->root(p) : 0;
   if (id == 0) return {};
   // Not by the nodes: balancing has divided some elements that are one.
   const Elements& all = hierarchy_->elements();

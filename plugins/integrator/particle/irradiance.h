@@ -23,13 +23,14 @@ class Irradiance {
   /// `scale`: W/m^2 of one unit of flux on one unit of area.
   Irradiance(const SceneView& scene, const Hierarchy& hierarchy, double scale);
 
-  /// Whether there is anything to say; if not, light has to be found otherwise.
-  bool covers(const Place& p) const noexcept;
+  /// Whether light is kept at a point; if not, rays have to find it. An empty one covers nothing.
+  bool covers(const PatchPoint& p) const noexcept;
   /// W/m^2, blended between vertices; constant on each element if not `smooth`. [any thread]
-  Rgb at(const Place& p, bool smooth) const noexcept;
-  ElementInfo element(const Place& p) const noexcept;
-  /// The same with all that is known of it: for somebody who asks about one place.
-  SeenElement seen(const Place& p) const noexcept;
+  Rgb at(const PatchPoint& p, bool smooth) const noexcept;
+  /// All zero where no light is kept.
+  ElementInfo element(const PatchPoint& p) const noexcept;
+  /// The same with everything that is known of the element: for an inspected pixel.
+  SeenElement seen(const PatchPoint& p) const noexcept;
 
   std::size_t leaves() const noexcept { return leaves_; }
 
@@ -65,7 +66,7 @@ class Irradiance {
     Vec2 local;
     std::uint32_t path;
   };
-  Found find(const Place& p) const noexcept;
+  Found find(const PatchPoint& p) const noexcept;
 
   const Hierarchy* hierarchy_ = nullptr;
   std::vector<std::uint32_t> roots_;  ///< by element id of the root; 0: dark

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hierarchical radiosity by particles, with their footprints as refinement oracle: light is left on
-// matt surfaces before the picture, and seen there; what is glossy or specular is found by rays
+// Hierarchical radiosity by particles, with their footprints as refinement oracle: light is kept on
+// diffuse surfaces before the picture, and seen there; what is glossy or specular is found by rays
 // from the eye.
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001. Sec. 4.2, Fig. 4
@@ -77,7 +77,10 @@ class ParticleIntegrator final : public Integrator {
         .params = {
             integer("particles", 400000).range(1, 4'000'000'000).doc("from all lights together"),
             integer("part", 1).range(1, 4096).doc("which of the `parts` of the particles to send"),
-            integer("parts", 1).range(1, 4096).doc("add their solutions: the same to the bit"),
+            integer("parts", 1)
+                .range(1, 4096)
+                .doc("add their solutions with --load-solution; with `edges off`, or oracle "
+                     "uniform, the sum is that of one run to the bit"),
             integer("samples", 16).range(1, 1 << 24).doc("eye paths a pixel"),
             integer("depth", 16).range(1, 4096).doc("longest eye path in edges"),
             choice("oracle", {"footprint", "variance", "uniform"})
@@ -106,8 +109,9 @@ class ParticleIntegrator final : public Integrator {
                 .doc("irradiance blended between vertices; constant on each element; or light "
                      "gathered by rays from what the eye sees"),
             boolean("glossy", true)
-                .doc("whether rays find what is glossy or specular; if not it is black, as in the "
-                     "paper's figure"),
+                .doc("whether rays find what is glossy or specular; if not, that part is black, as "
+                     "in "
+                     "the paper's figure"),
             boolean("wires", false).doc("draws the elements' edges"),
             block("footprint", "footprint").doc("of particles (global, with limit 0.7)"),
             text("save_solution", "").doc("by --save-solution: keeps the light on the surfaces"),
@@ -124,7 +128,7 @@ class ParticleIntegrator final : public Integrator {
         load_(splitAtCommas(v.text(kLoad))) {
     if (part_ > parts_) throw PluginError(kPart, "part is one of 1 to parts");
     if (parts_ > particles_) throw PluginError(kParts, "there are more parts than particles");
-    // A scene from elsewhere shall not write or read files by itself.
+    // A scene from elsewhere must not write or read files by itself.
     for (const int row : {int(kSave), int(kLoad)})
       if (v.has(row) && v.span(row).file >= 0)
         throw PluginError(row,
@@ -165,6 +169,11 @@ class ParticleIntegrator final : public Integrator {
       settings.minArea = b.isEmpty() ? Real(0) : sqr(kSmallest * length(b.size()));
     view_.light = {};
     hierarchy_ = std::make_unique<Hierarchy>(p.scene, settings);
+    if (load_.empty() && parts_ > 1 && isDividedByHits())
+      p.warn(
+          "each part divides its elements by its own hits, so the sum of the parts is not the same "
+          "to the bit as one run, and a little coarser: `edges off` with oracle footprint, or "
+          "oracle uniform, makes it the same");
     Booking booking;
     SolutionKey key{fingerprint(p.scene, *hierarchy_), 0, 0};
     for (const std::string& file : load_) addSolution(file, key, booking, *hierarchy_);
@@ -199,6 +208,12 @@ class ParticleIntegrator final : public Integrator {
       count += isSilent;
     }
     return count;
+  }
+
+  /// Whether elements depend on which particles went before: Hierarchy::pause() divides them.
+  bool isDividedByHits() const noexcept {
+    return elements_.oracle == Oracle::variance ||
+           (elements_.oracle == Oracle::footprint && elements_.edges);
   }
 
   /// False if the user stopped it.

@@ -9,7 +9,8 @@
 namespace vestige::particle {
 namespace {
 
-/// Dimensions of a particle's numbers: a point of a light, a direction, which light; then as paths.
+/// Dimensions of a particle's random numbers: a point of a light, a direction, which light; then as
+/// paths.
 constexpr std::uint32_t kPoint = dimension::kFilm, kDirection = dimension::kLens,
                         kLight = dimension::kTime;
 /// Far from those of any vertex.
@@ -18,7 +19,7 @@ constexpr std::uint32_t kRounding = 0x70000000u;
 /// What a thread takes at once.
 constexpr std::uint64_t kBatch = 256;
 
-/// From this scattering on nobody survives for certain: a closed room of white walls ends too.
+/// From this scattering on survival is never certain: particles end even between white walls.
 constexpr int kMortalFrom = 16;
 constexpr Real kMaxSurvival = Real(0.95);
 
@@ -74,7 +75,7 @@ Flux Shooting::inUnits(Rgb watt, Real u) const noexcept {
 
 void Shooting::pass(std::uint64_t first, std::uint64_t last, int threads, Booking& booking) const {
   std::atomic<std::uint64_t> next{first};
-  std::exception_ptr failure;  // memory is all that may fail
+  std::exception_ptr failure;  // only memory can run out
   std::mutex mutex;
   const auto work = [&] {
     Booking own;
@@ -97,7 +98,7 @@ void Shooting::pass(std::uint64_t first, std::uint64_t last, int threads, Bookin
 }
 
 void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
-  const Sampler sampler(0x70617274u, 0, index, seed);  // "part": no pixel has these numbers
+  const Sampler sampler(0x70617274u, 0, index, seed);  // "part": no pixel uses this sequence
   ++booking.particles;
   const auto choice = scene.chooseLight(sampler.number(kLight));
   if (!choice) return;
@@ -126,11 +127,11 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
     scene.shade(s, -ray.direction, scene.usesFootprint(s) ? path.footprint() : Footprint{}, inputs,
                 x);
     const std::uint32_t dim = dimension::vertex(std::uint32_t(bounce));
-    // Before opacity: who looks at the surface sees it as opaque as it is.
-    if (hierarchy.isMatt(s.object)) {
+    // Before opacity: eye paths apply the opacity themselves.
+    const PatchPoint at = patchPointOf(s, x.toPrev);
+    if (hierarchy.keeps(at)) {
       ++booking.hits;
-      hierarchy.deposit(placeOf(s, x.toPrev), areaOf(path, area),
-                        inUnits(bending(x) * power, rounding));
+      hierarchy.deposit(at, areaOf(path, area), inUnits(bending(x) * power, rounding));
     }
     if (!isOpaque(x.opacity)) {
       const Passage passage =
@@ -151,9 +152,9 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
     }
     layer = 0;
 
-    const ScatterNumbers numbers{sampler.number(dim + dimension::kLobe),
-                                 sampler.pair(dim + dimension::kDirection)};
-    const std::optional<Scatter> drawn = drawScatter(x, numbers, Carries::flux);
+    const ScatterNumbers random{sampler.number(dim + dimension::kLobe),
+                                sampler.pair(dim + dimension::kDirection)};
+    const std::optional<Scatter> drawn = drawScatter(x, random, Carries::flux);
     if (!drawn) return add(booking.absorbed, carried);
     power *= drawn->weight;
     const Flux left = inUnits(power, rounding);
@@ -167,7 +168,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
     const Flux grown = inUnits(power, rounding);
     add(booking.gained, grown), add(booking.gained, carried, -1);
     carried = grown;
-    path.scatter(s, x, *drawn, numbers);
+    path.scatter(s, x, *drawn, random);
     path.chance(survival);
     ray = spawnRay(s, drawn->toNext);
     ++bounce;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Particles: from the lights through the scene, each with the region that it stands for, leaving
-// flux wherever something matt is met. A particle is a pure function of its index and the seed.
+// flux wherever light is kept. A particle is a pure function of its index and the seed.
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001. Sec. 4.2
 #pragma once

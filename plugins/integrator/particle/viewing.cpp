@@ -37,33 +37,37 @@ Rgb Viewing::radiance(PathContext& c) const noexcept {
 /// Adds the diffuse part from the solution's irradiance. False: nothing else is to be added there.
 bool Viewing::look(Path& p) const noexcept {
   Vertex& v = p.v;
-  const Place place = placeOf(v.s, v.x.toPrev);
+  const PatchPoint at = patchPointOf(v.s, v.x.toPrev);
   Aovs* const aovs = p.edge == 1 ? p.c.aovs : nullptr;
   if (aovs) {
     writeAovs(*aovs, v.s, v.x);
-    const ElementInfo e = light.element(place);
+    const ElementInfo e = light.element(at);
     aovs->elementLevel = Real(e.level);
     aovs->elementId = Real(e.id);
   }
-  const DiffusePart matt = v.x.brdf ? v.x.brdf->diffuse(v.x.point) : DiffusePart{{}, true};
-  const bool isKept = !isBlack(matt.albedo) && light.covers(place);
+  const DiffusePart diffuse =
+      v.x.brdf ? v.x.brdf->diffuse(v.x.point) : DiffusePart{{}, true};
+  const bool isDiffuse = !isBlack(diffuse.albedo);
+  const bool isKept = isDiffuse && light.covers(at);
   const bool isShown = isKept && !p.gathers;
-  const bool isGathered = isKept && p.gathers;
-  if (isKept && p.c.record) p.c.record->saw(light.seen(place));
+  if (isKept && p.c.record) p.c.record->saw(light.seen(at));
   if (isShown) {
-    const Real edges = wires && p.edge == 1 ? wire(p.c, place) : Real(1);
+    const Real edges = wires && p.edge == 1 ? wire(p.c, at) : Real(1);
     p.radiance +=
-        edges / kPi * p.throughput * matt.albedo * light.at(place, show != Show::elements);
-    if (aovs) aovs->albedo = matt.albedo;
+        edges / kPi * p.throughput * diffuse.albedo * light.at(at, show != Show::elements);
+    if (aovs) aovs->albedo = diffuse.albedo;
   }
-  const bool isAll = matt.isAll && (isShown || isBlack(matt.albedo));
-  if (isAll || p.edge == depth || (!glossy && !isGathered)) {
-    p.report.rest(v.s, v.x.toPrev, p.throughput, p.footprint);
-    return false;
-  }
-  if (isShown) v.x.brdf = &p.rest.emplace(*v.x.brdf, matt.albedo);
-  if (isGathered) p.gathers = false;
+  const bool isDone = isShown || !isDiffuse;  // rays need not find the diffuse part
+  if (isDone && (diffuse.isAll || !glossy)) return end(p);
+  if (p.edge == depth) return end(p);
+  if (isShown) v.x.brdf = &p.rest.emplace(*v.x.brdf, diffuse.albedo);
+  if (isKept) p.gathers = false;
   return true;
+}
+
+bool Viewing::end(Path& p) noexcept {
+  p.report.rest(p.v.s, p.v.x.toPrev, p.throughput, p.footprint);
+  return false;
 }
 
 /// Next-event estimation and the next ray. False: the path ends.
@@ -88,14 +92,15 @@ bool Viewing::scatter(Path& p) const noexcept {
 }
 
 /// Darkens the pixel where the next pixel shows another element.
-Real Viewing::wire(PathContext& c, const Place& place) const noexcept {
-  const std::uint32_t own = light.element(place).id;
+Real Viewing::wire(PathContext& c, const PatchPoint& at) const noexcept {
+  const std::uint32_t own = light.element(at).id;
   for (const std::size_t j : {0, 1}) {
     const Ray beside{c.ray.origin + c.jacobian.dOrigin[j],
                      normalize(c.ray.direction + c.jacobian.dDirection[j]), 0, kInfinity};
     Surface s;
     ++c.counters.rays;
-    if (!c.scene.intersect(beside, s) || light.element(placeOf(s, -beside.direction)).id != own)
+    if (!c.scene.intersect(beside, s) ||
+        light.element(patchPointOf(s, -beside.direction)).id != own)
       return kWire;
   }
   return 1;

@@ -27,8 +27,9 @@ struct Viewing {
  private:
   struct Path;
   bool look(Path& path) const noexcept;
+  static bool end(Path& path) noexcept;
   bool scatter(Path& path) const noexcept;
-  Real wire(PathContext& c, const Place& place) const noexcept;
+  Real wire(PathContext& c, const PatchPoint& at) const noexcept;
 };
 
 }  // namespace vestige::particle
