@@ -77,7 +77,7 @@ inline std::string textOfSettings(const Settings& settings) {
   text.precision(9);
   for (const auto& [name, value] : settings) {
     text << " " << name << " ";
-    if (value.kind == Value::Kind::text) text << value.text;
+    if (value.kind == Value::Kind::text) text << value.text.str();
     if (value.kind == Value::Kind::block) text << "{ " << value.block->plugin << " }";
     const int size = value.kind == Value::Kind::number   ? 1
                      : value.kind == Value::Kind::colour ? 3

@@ -11,7 +11,8 @@ namespace vestige {
 /// Blocks without a plugin: film, union.
 std::vector<Schema> engineSchemas();
 
-/// A plugin's schema as the language sees it: inputs are texturable; a brdf has `normal_map` and
+/// A plugin's schema as the language sees it: blocks of the engine's own kinds stand where they may;
+/// inputs are texturable; a brdf has `normal_map` and
 /// `opacity` after its own inputs, a shape `emission` and a brdf inside.
 Schema withEngineRows(Schema schema);
 
