@@ -139,7 +139,10 @@ bool Parser::headName(const std::string& kind, Head& head) {
   const BlockPtr declared = named ? nullptr : declaredBlock(t);
   if (!named && !(declared && declared->kind == kind)) return false;
   if (head.schema && (named || head.schema->name != declared->plugin)) {
-    if (named || head.schema->children.size() > 0) return false;  // an item: decided there
+    const auto& rows = head.schema->params;
+    const bool isPart = std::any_of(rows.begin(), rows.end(),
+                                    [&](const Parameter& p) { return p.blockKind == kind; });
+    if (named || isPart || head.schema->children.size() > 0) return false;  // an item: see there
     context_.reporter.syntaxError(t.span, "'" + *t.text + "' is a " + declared->kind + " " +
                                               declared->plugin + ", not a " + head.schema->kind +
                                               " " + head.schema->name);
