@@ -223,7 +223,8 @@ class Compiler {
     if (!inner) return false;
     if (int(e.args.size()) != inner->arity())
       return fail(e.span, "the function '" + e.word + "' takes " + std::to_string(inner->arity()) +
-                              " arguments, found " + std::to_string(e.args.size()));
+                              (inner->arity() == 1 ? " argument, found " : " arguments, found ") +
+                              std::to_string(e.args.size()));
     p.depth = std::max(p.depth, inner->depth + 1);
     return addCall(p, e, below, nullptr, inner);
   }

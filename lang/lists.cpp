@@ -69,7 +69,9 @@ Entry Parser::mapEntry(const Parameter& row, const Parameter& entry, const List&
 /// One value of a list, with its span; of kind none after a complaint.
 Value Parser::entryValue(const Parameter& entry, const std::string& who) {
   const Token t = stream_.peek();
-  if (entry.type == ValueType::block) return blockValue(blockOf(entry, t.span));
+  const bool isBlock = t.kind == Token::Kind::name && words_.isKind(*t.text);
+  const bool isOther = isBlock && *t.text != entry.blockKind;
+  if (entry.type == ValueType::block && !isOther) return blockValue(blockOf(entry, t.span));
   if (entry.texturable)
     if (std::optional<Block> given = pigment()) {
       const Span span = context_.sources.join(t.span, given->span);
@@ -83,7 +85,7 @@ Value Parser::entryValue(const Parameter& entry, const std::string& who) {
   if (isChoice) {
     stream_.next();
     given = {textDatum(*t.text), t.span};
-  } else if (t.kind == Token::Kind::name && words_.isKind(*t.text)) {
+  } else if (isBlock) {
     const BlockPtr found = std::make_shared<const Block>(block());
     given = {found, found->span};
   } else {

@@ -356,8 +356,8 @@ Block Parser::blockOf(const Parameter& row, const Span& nameSpan) {
     start.after.clear();
   }
   const Token inside = stream_.peek().is("{") ? stream_.peekRaw(1) : Token{};
-  if (inside.kind == Token::Kind::name && !words_.find(kind, *inside.text))
-    start.schema = words_.find(kind, row.name);
+  const bool isPlugin = inside.kind == Token::Kind::name && words_.find(kind, *inside.text);
+  if (stream_.peek().is("{") && !isPlugin) start.schema = words_.find(kind, row.name);
   if (!words_.isKind(kind))
     context_.reporter.syntaxError(nameSpan, "no plugin of kind '" + kind + "' is installed");
   return finishBlock(head(kind, start), Braces::optional);

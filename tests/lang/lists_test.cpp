@@ -183,7 +183,7 @@ TEST_CASE("every function of numbers is the same in a block", "[lang]") {
   for (const std::string& name : builtinNames()) {
     const Builtin& b = *findBuiltin(name);
     std::string letters = b.signature;
-    if (name == "chr") continue;  // gives a text
+    if (name == "chr" || name == "str") continue;  // these give texts
     if (!b.isPure || letters.find_first_of("vsa") != std::string::npos) continue;
     std::erase_if(letters, [](char c) { return c != 'n'; });
     if (std::string(b.signature).find('+') != std::string::npos) letters = "nnn";
