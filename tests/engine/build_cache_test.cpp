@@ -56,11 +56,6 @@ class Files {
   int count_ = 0;
 };
 
-Value blockValue(Block block) {
-  Value v;
-  v.kind = Value::Kind::block, v.block = std::make_shared<Block>(std::move(block));
-  return v;
-}
 
 Affine moved(double x, double y, double z) {
   Affine a;
