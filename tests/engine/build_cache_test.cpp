@@ -56,7 +56,6 @@ class Files {
   int count_ = 0;
 };
 
-
 Affine moved(double x, double y, double z) {
   Affine a;
   a.m[0][3] = x, a.m[1][3] = y, a.m[2][3] = z;
