@@ -24,7 +24,7 @@ const Block* integratorOf(const SceneDesc& text, const BuildOptions& build) {
 }
 
 void forget(Block& block, std::initializer_list<const char*> names) {
-  std::erase_if(block.settings, [&](const Setting& s) {
+  std::erase_if(block.settings.edit(), [&](const Setting& s) {
     return std::find(names.begin(), names.end(), s.name) != names.end();
   });
 }
@@ -54,7 +54,7 @@ void addFiles(CheckpointLabel& label, const Scene& scene, const Registry& regist
     for (const std::string& file : *build.files) addFile(label, "the file", file);
   for (const auto& [name, value] : build.settings)
     if (name == "load_solution")
-      for (const std::string& file : CLI::detail::split(value.text, ','))
+      for (const std::string& file : CLI::detail::split(value.text.str(), ','))
         addFile(label, "the solution", file);
   for (const std::string& file : registry.loadedFiles()) {
     // A window knows the other integrators as well.

@@ -53,8 +53,9 @@ std::string line(const std::vector<std::string>& cells) {
 std::string typeCell(const Parameter& p) {
   Parameter bare = p;
   bare.texturable = false;
-  return p.type == ValueType::choice || p.type == ValueType::vec2 || p.type == ValueType::vec3 ||
-                 p.type == ValueType::vec4
+  const ValueType type = p.isList() ? p.entryType : p.type;
+  return type == ValueType::choice || type == ValueType::vec2 || type == ValueType::vec3 ||
+                 type == ValueType::vec4
              ? code(typeText(bare))
              : plainMarkdown(typeText(bare));
 }

@@ -44,13 +44,20 @@ struct TypeName {
   ValueType type;
   const char *word, *id;
 };
-constexpr TypeName kTypeNames[] = {
-    {ValueType::real, "number", "real"},        {ValueType::integer, "integer", "integer"},
-    {ValueType::boolean, "boolean", "boolean"}, {ValueType::rgb, "colour", "rgb"},
-    {ValueType::vec2, "<x, y>", "vec2"},        {ValueType::vec3, "<x, y, z>", "vec3"},
-    {ValueType::vec4, "<a, b, c, d>", "vec4"},  {ValueType::text, "text", "text"},
-    {ValueType::file, "file name", "file"},     {ValueType::choice, "choice", "choice"},
-    {ValueType::block, "block", "block"}};
+constexpr TypeName kTypeNames[] = {{ValueType::real, "number", "real"},
+                                   {ValueType::integer, "integer", "integer"},
+                                   {ValueType::boolean, "boolean", "boolean"},
+                                   {ValueType::rgb, "colour", "rgb"},
+                                   {ValueType::vec2, "<x, y>", "vec2"},
+                                   {ValueType::vec3, "<x, y, z>", "vec3"},
+                                   {ValueType::vec4, "<a, b, c, d>", "vec4"},
+                                   {ValueType::text, "text", "text"},
+                                   {ValueType::file, "file name", "file"},
+                                   {ValueType::choice, "choice", "choice"},
+                                   {ValueType::block, "block", "block"},
+                                   {ValueType::list, "list", "list"},
+                                   {ValueType::map, "map", "map"},
+                                   {ValueType::function, "function", "function"}};
 
 const TypeName& nameOf(ValueType type) {
   for (const TypeName& name : kTypeNames)
@@ -82,7 +89,7 @@ Json toJson(const Value& v, ValueType type) {
     case Value::Kind::colour:
       return std::vector<double>(v.v, v.v + 3);
     case Value::Kind::text:
-      return v.text;
+      return v.text.str();
     default:
       return nullptr;
   }
@@ -95,6 +102,16 @@ Json toJson(const Parameter& p) {
   if (std::isfinite(p.high)) json["maximum"] = p.high;
   json["required"] = p.required, json["positional"] = p.positional;
   json["texturable"] = p.texturable, json["unit"] = p.unit, json["help"] = p.help;
+  if (p.isList()) {
+    json["entry_type"] = nameOf(p.entryType).id;
+    json["minimum_entries"] = p.minEntries;
+    if (p.maxEntries < std::numeric_limits<int>::max()) json["maximum_entries"] = p.maxEntries;
+  }
+  if (p.type == ValueType::map) {
+    if (std::isfinite(p.lowKey)) json["minimum_key"] = p.lowKey;
+    if (std::isfinite(p.highKey)) json["maximum_key"] = p.highKey;
+  }
+  if (p.type == ValueType::function) json["arity"] = p.arity;
   if (!p.choices.empty()) json["choices"] = p.choices;
   if (!p.blockKind.empty()) json["block_kind"] = p.blockKind;
   return json;
@@ -129,6 +146,10 @@ std::string table(const std::vector<Row>& rows, int width) {
 }
 
 std::string typeText(const Parameter& p) {
+  if (p.type == ValueType::list) return "list of " + typeText(p.entry());
+  if (p.type == ValueType::map) return "map to " + typeText(p.entry());
+  if (p.type == ValueType::function)
+    return fmt::format("function of {} number{}", p.arity, p.arity == 1 ? "" : "s");
   std::string text = nameOf(p.type).word;
   if (p.type == ValueType::choice) {
     text.clear();
@@ -153,7 +174,7 @@ std::string valueText(const Value& v) {
       return v.v[0] == v.v[1] && v.v[1] == v.v[2] ? fmt::format("rgb {:g}", v.v[0])
                                                   : "rgb " + list(3);
     case Value::Kind::text:
-      return '"' + v.text + '"';
+      return '"' + v.text.str() + '"';
     default:
       return "";
   }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <vestige/function.h>
+
 #include "lang/value.h"
 
 namespace vestige::lang {
@@ -49,8 +51,9 @@ struct Expr {
 /// `function(a, b) { a*b + 1 }`, or, of three numbers, `function { transform { T } }`.
 struct Function {
   std::vector<const std::string*> parameters;
-  ExprPtr body;      ///< null: `transform`
-  Affine transform;  ///< gives a vector
+  ExprPtr body;                                                        ///< null: `transform`
+  Affine transform;                                                    ///< gives a vector
+  mutable std::shared_ptr<const vestige::Function> program = nullptr;  ///< once a block takes it
 };
 
 }  // namespace vestige::lang

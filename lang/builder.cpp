@@ -8,20 +8,41 @@ namespace {
 
 void moveBlock(Block& block, const Affine& t);
 
-/// Settings are shared between the copies of a declared block, so a moved one is a new one.
-void moveSettings(Block& block, const Affine& t) {
-  for (Setting& s : block.settings) {
-    if (!s.value.block) continue;
-    auto moved = std::make_shared<Block>(*s.value.block);
+bool holdsBlocks(const Value& value) {
+  return value.block || (value.list && value.list->holdsBlocks);
+}
+
+/// Copies of a declared block share what its settings hold, so a moved block is a new one.
+void moveValue(Value& value, const Affine& t) {
+  if (value.block) {
+    auto moved = std::make_shared<Block>(*value.block);
     moveBlock(*moved, t);
-    s.value.block = std::move(moved);
+    value.block = std::move(moved);
+  }
+  if (value.list && value.list->holdsBlocks) {
+    auto moved = std::make_shared<List>(*value.list);
+    for (Entry& e : moved->entries) moveValue(e.value, t);
+    value.list = std::move(moved);
   }
 }
 
 void moveBlock(Block& block, const Affine& t) {
   block.world = t * block.world;
-  for (Block& child : block.children) moveBlock(child, t);
-  moveSettings(block, t);
+  if (!block.children.empty())
+    for (Block& child : block.children.edit()) moveBlock(child, t);
+  if (std::any_of(block.settings.begin(), block.settings.end(),
+                  [](const Setting& s) { return holdsBlocks(s.value); }))
+    for (Setting& s : block.settings.edit()) moveValue(s.value, t);
+}
+
+std::int64_t measure(const Block& block, int level, int& depth);
+
+std::int64_t measureValue(const Value& value, int level, int& depth) {
+  if (value.block) return measure(*value.block, level, depth);
+  std::int64_t n = 0;
+  if (value.list && value.list->holdsBlocks)
+    for (const Entry& e : value.list->entries) n += measureValue(e.value, level, depth);
+  return n;
 }
 
 /// Blocks in a block, itself included; `depth` becomes the longest way down.
@@ -29,8 +50,7 @@ std::int64_t measure(const Block& block, int level, int& depth) {
   depth = std::max(depth, level);
   std::int64_t n = 1;
   for (const Block& child : block.children) n += measure(child, level + 1, depth);
-  for (const Setting& s : block.settings)
-    if (s.value.block) n += measure(*s.value.block, level + 1, depth);
+  for (const Setting& s : block.settings) n += measureValue(s.value, level + 1, depth);
   return n;
 }
 
@@ -92,11 +112,15 @@ void BlockBuilder::setWord(const Parameter& row, const Span& nameSpan, const std
 }
 
 void BlockBuilder::setBlock(const Parameter& row, const Span& nameSpan, Block block) {
-  Value value;
-  value.kind = Value::Kind::block;
-  value.span = block.span;
-  value.block = std::make_shared<const Block>(std::move(block));
-  store(row, nameSpan, std::move(value));
+  store(row, nameSpan, blockValue(std::move(block)));
+}
+
+void BlockBuilder::setList(const Parameter& row, const Span& nameSpan, List list,
+                           const Span& span) {
+  auto value = listOf(context_, row, std::move(list), span);
+  if (!value) value = Value{};
+  value->span = span;
+  store(row, nameSpan, std::move(*value));
 }
 
 void BlockBuilder::store(const Parameter& row, const Span& nameSpan, Value value) {
@@ -112,7 +136,8 @@ void BlockBuilder::store(const Parameter& row, const Span& nameSpan, Value value
     if (std::find(given_.begin(), given_.end(), &row) != given_.end())
       context_.reporter.warning(nameSpan, "'" + row.name + "' is given twice; this one counts")
           .notes.push_back({before->span, "given here before"});
-    settings.erase(before);
+    const auto index = before - settings.begin();
+    settings.edit().erase(settings.edit().begin() + index);
   }
   given_.push_back(&row);
   settings.push_back({row.name, std::move(value), nameSpan});

@@ -30,6 +30,8 @@ class BlockBuilder {
   void setWord(const Parameter& row, const Span& nameSpan, const std::string& word,
                const Span& span);
   void setBlock(const Parameter& row, const Span& nameSpan, Block block);
+  /// Entries that fit the row one by one; complains about their number.
+  void setList(const Parameter& row, const Span& nameSpan, List list, const Span& span);
   void add(Block child);
   /// Moves what is there by now.
   void move(const Affine& transform);
@@ -53,9 +55,19 @@ class BlockBuilder {
 
 /// Counts a copy of a block against the limit, and checks how deep it is.
 void countBlocks(Context& context, const Block& block, const Span& span);
-/// A value as the row wants it; nothing after a complaint.
+/// A value as the row wants it; nothing after a complaint, which calls it `who` ("": by the row's
+/// name).
 std::optional<Value> convert(Context& context, const Parameter& row, const Datum& value,
-                             const Span& span);
+                             const Span& span, const std::string& who = "");
+/// A list whose entries fit the row, counted against the limit; nothing after a complaint about
+/// their number.
+std::optional<Value> listOf(Context& context, const Parameter& row, List list, const Span& span);
+/// "entry 3 of 'profile'", from an index.
+std::string entryName(const Parameter& row, std::size_t index);
+/// The key of a map's entry; complains if it does not fit or is less than the one before (null:
+/// there is none). Nothing after a complaint.
+std::optional<double> keyOf(Context& context, const Parameter& row, const Datum& key,
+                            const Span& span, const double* before);
 /// "a number", "a colour", "one of box, gaussian": what a row takes.
 std::string expectation(const Parameter& row);
 

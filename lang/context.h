@@ -30,8 +30,8 @@ struct Context {
   std::vector<std::uint32_t> streams;  ///< states of rand(), by what seed() returned
   int nesting = 0;                     ///< of braces, parentheses, calls: bounds our own stack
   std::int64_t blocks = 0;             ///< made so far, copies included
-  std::shared_ptr<std::int64_t> elements = std::make_shared<std::int64_t>(0);  ///< of live arrays
-  std::shared_ptr<std::int64_t> longText = std::make_shared<std::int64_t>(0);  ///< live bytes
+  Total elements = std::make_shared<std::atomic<std::int64_t>>(0);  ///< of live arrays and lists
+  Total longText = std::make_shared<std::atomic<std::int64_t>>(0);  ///< live bytes
   std::int64_t steps = 0;  ///< tokens read and functions evaluated
   std::function<bool(const std::string&)> fileExists;
   /// The file of the include paths that declares a name, or "".
@@ -46,10 +46,12 @@ struct Context {
                                                             : ", which is too much for any scene"));
   }
   void checkElements(const Span& span) {
-    if (*elements > std::int64_t(options.limits.arrayElements))
-      reporter.stop(span, "the arrays of this scene have more than " +
-                              std::to_string(options.limits.arrayElements) +
-                              " elements: --max-array-elements raises the limit");
+    if (*elements > std::int64_t(options.limits.arrayElements)) stopAtElements(span);
+  }
+  [[noreturn]] void stopAtElements(const Span& span) {
+    reporter.stop(span, "the arrays and lists of this scene have more than " +
+                            std::to_string(options.limits.arrayElements) +
+                            " elements: --max-array-elements raises the limit");
   }
   /// Counts work, so that no text runs for ever.
   void step(const Span& span) {

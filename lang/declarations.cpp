@@ -135,9 +135,10 @@ Affine Parser::transformBlock() {
 
 // ---------------------------------------------------------------- functions and arrays
 // function := 'function' ['(' name { ',' name } ')'] '{' (expression | 'transform' ...) '}'
-Parser::Declared Parser::function() {
-  const Token word = stream_.next();
-  const Nested nested(context_, word.span);
+Parser::Declared Parser::function() { return functionBehind(stream_.next().span); }
+
+Parser::Declared Parser::functionBehind(const Span& word) {
+  const Nested nested(context_, word);
   auto f = std::make_shared<Function>();
   const Span open = stream_.peekRaw().span;
   if (stream_.acceptRaw("(")) {
@@ -160,7 +161,7 @@ Parser::Declared Parser::function() {
   } else {
     expressions_.functionBody(*f);
   }
-  return {FunctionPtr(std::move(f)), context_.sources.join(word.span, stream_.last())};
+  return {FunctionPtr(std::move(f)), context_.sources.join(word, stream_.last())};
 }
 
 // array := 'array' { '[' sum ']' } [ elements ]

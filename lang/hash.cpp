@@ -3,6 +3,7 @@
 #include "lang/hash.h"
 
 #include <cstring>
+#include <unordered_map>
 
 namespace vestige::lang {
 namespace {
@@ -30,8 +31,17 @@ class Hash {
     add(std::uint64_t(v.kind));
     add(std::uint64_t(v.size));
     for (const double x : v.v) add(x);
-    add(v.text);
+    add(shared(v.text.str(), v.text.str().size()));
     if (v.block) add(*v.block);
+    if (v.list) add(shared(*v.list, v.list->entries.size()));
+    if (v.function) add(v.function->fingerprint());
+  }
+  void add(const List& list) {
+    add(std::uint64_t(list.entries.size()));
+    for (const Entry& e : list.entries) {
+      add(e.key);
+      add(e.value);
+    }
   }
   void add(const Block& b) {
     add(b.kind);
@@ -49,11 +59,23 @@ class Hash {
   std::uint64_t value() const { return value_; }
 
  private:
+  /// The hash of what many blocks may share, reckoned once where that takes time.
+  template <class T>
+  std::uint64_t shared(const T& item, std::size_t size) {
+    constexpr std::size_t kLong = 32;
+    const auto known = known_.find(&item);
+    if (known != known_.end()) return known->second;
+    Hash own;
+    own.add(item);
+    if (size >= kLong) known_[&item] = own.value();
+    return own.value();
+  }
   void byte(unsigned char b) {
     value_ ^= b;
     value_ *= 0x100000001b3ull;
   }
   std::uint64_t value_ = 0xcbf29ce484222325ull;
+  std::unordered_map<const void*, std::uint64_t> known_;
 };
 
 }  // namespace

@@ -47,19 +47,18 @@ void Parser::statement(SceneDesc& scene) {
 }
 
 void Parser::addToScene(SceneDesc& scene, Block block) {
-  if (!words_.standsAlone(block.kind)) {
-    const bool isBrdf = block.kind == "brdf";
-    context_.reporter.error(block.span, "a " + block.kind +
-                                            " cannot stand alone: write it inside a " +
-                                            (isBrdf ? "shape" : "block that uses it") +
-                                            ", or '#declare Name = " + block.kind + " ...'");
+  const Schema& schema = *words_.find(block.kind, block.plugin);
+  if (!schema.standsAlone) {
+    const std::vector<std::string> holders = words_.holders(block.kind);
+    context_.reporter.error(block.span,
+                            "a " + block.kind + " cannot stand alone: write it inside a " +
+                                (holders.empty() ? "block that uses it" : orList(holders)) +
+                                ", or '#declare Name = " + block.kind + " ...'");
     return;
   }
-  const bool isSingle =
-      block.kind == "camera" || block.kind == "film" || block.kind == "integrator";
   const auto before = std::find_if(scene.blocks.begin(), scene.blocks.end(),
                                    [&](const Block& b) { return b.kind == block.kind; });
-  if (isSingle && before != scene.blocks.end()) {
+  if (schema.isSingle && before != scene.blocks.end()) {
     context_.reporter.warning(block.span, "a second " + block.kind + ": this one counts")
         .notes.push_back({before->span, "the first one"});
     scene.blocks.erase(before);
@@ -98,11 +97,11 @@ Block Parser::objectBlock() {
   } else {
     expressions_.unexpected("the name of a declared shape or union");
   }
-  if (!words_.standsAlone(start.base->kind))
+  start.schema = words_.find(start.base->kind, start.base->plugin);
+  if (!start.schema->standsAlone)
     context_.reporter.syntaxError(t.span, "'object' takes a shape or a union, found " +
                                               describe(Datum(start.base)) + ": write '" +
                                               start.base->kind + " { " + *t.text + " }'");
-  start.schema = words_.find(start.base->kind, start.base->plugin);
   return finishBlock(std::move(start), Braces::needed);
 }
 
@@ -124,11 +123,11 @@ Block Parser::finishBlock(Head head, Braces braces) {
 Parser::Head Parser::head(const std::string& kind, Head head) {
   if (!head.schema) head.schema = words_.find(kind, "");
   if (!head.schema && !headName(kind, head) && !stream_.peek().is("{"))
-    unknownPlugin(kind, stream_.peek());
+    unknownPlugin(kind, stream_.peek(), head.after);
   if (head.base || !stream_.accept("{")) return head;
   head.isOpen = true, head.brace = stream_.last();
   headName(kind, head);
-  if (!head.schema) unknownPlugin(kind, stream_.peek());
+  if (!head.schema) unknownPlugin(kind, stream_.peek(), head.after);
   return head;
 }
 
@@ -140,11 +139,17 @@ bool Parser::headName(const std::string& kind, Head& head) {
   const BlockPtr declared = named ? nullptr : declaredBlock(t);
   if (!named && !(declared && declared->kind == kind)) return false;
   if (head.schema && (named || head.schema->name != declared->plugin)) {
-    if (named || head.schema->children.size() > 0) return false;  // an item: decided there
+    const auto& rows = head.schema->params;
+    const bool isPart = std::any_of(rows.begin(), rows.end(),
+                                    [&](const Parameter& p) { return p.blockKind == kind; });
+    if (named || isPart || head.schema->children.size() > 0) return false;  // an item: see there
     context_.reporter.syntaxError(t.span, "'" + *t.text + "' is a " + declared->kind + " " +
                                               declared->plugin + ", not a " + head.schema->kind +
                                               " " + head.schema->name);
   }
+  // `brdf mix { Gloss ... }`: a part of it, though it may be a mixture itself.
+  const auto& parts = head.schema ? head.schema->children : std::vector<std::string>();
+  if (std::find(parts.begin(), parts.end(), kind) != parts.end()) return false;
   stream_.next();
   head.base = declared;
   head.schema = named ? named : words_.find(kind, declared->plugin);
@@ -152,10 +157,13 @@ bool Parser::headName(const std::string& kind, Head& head) {
   return true;
 }
 
-void Parser::unknownPlugin(const std::string& kind, const Token& found) {
+void Parser::unknownPlugin(const std::string& kind, const Token& found, const std::string& after) {
   std::vector<std::string> known = words_.plugins(kind);
   std::sort(known.begin(), known.end());
   const std::string list = orList(known);
+  if (found.kind != Token::Kind::name && !after.empty())
+    expressions_.unexpected("a " + kind + " (" + list + ", or a declared one) after '" + after +
+                            "'");
   if (found.kind != Token::Kind::name) expressions_.unexpected(list + " after '" + kind + "'");
   const std::vector<std::string> plugins = known;
   for (const std::string& name : context_.symbols.names()) known.push_back(name);
@@ -213,7 +221,7 @@ Parser::Next Parser::item(BlockBuilder& b, bool afterComma) {
   } else if (const Parameter* row = b.row(*t.text)) {
     setting(b, *row);
   } else if (isTransformWord(*t.text)) {
-    if (!isMovable(b.schema().kind))
+    if (!b.schema().isMovable)
       context_.reporter.syntaxError(t.span, "'" + b.title() + "' has no place in space, so '" +
                                                 *t.text + "' cannot stand in it");
     b.move(transform());
@@ -231,6 +239,7 @@ Parser::Next Parser::item(BlockBuilder& b, bool afterComma) {
 /// same spelling, unless a comma has announced a value.
 bool Parser::isValue(const BlockBuilder& b, const Token& t, bool afterComma) const {
   const Parameter* next = b.nextPositional();
+  if (next && next->isList() && t.is("[")) return true;
   if (t.kind != Token::Kind::name) return expressions_.begins(t);
   if (next && next->type == ValueType::choice)
     for (const std::string& word : next->choices)
@@ -248,6 +257,7 @@ void Parser::positional(BlockBuilder& b) {
   const Parameter* row = b.nextPositional();
   const Token t = stream_.peek();
   if (row && row->type == ValueType::choice && choiceSetting(b, *row, t.span)) return;
+  if (row && row->isList() && listSetting(b, *row, t.span)) return;
   const auto result = expressions_.evaluate(ExpressionParser::Place::setting);
   if (row) {
     b.set(*row, result.span, result.value, result.span);
@@ -264,14 +274,22 @@ void Parser::positional(BlockBuilder& b) {
                           std::to_string(names.size()) + " without names (" + orList(names) + ")");
 }
 
-// parameter value := name (expression | word | pigment | block)
+// parameter value := name (expression | word | pigment | block | list | function)
 void Parser::setting(BlockBuilder& b, const Parameter& row) {
   const Token name = stream_.next();
   if (row.type == ValueType::block) return blockSetting(b, row, name.span);
   if (row.texturable && pigmentSetting(b, row, name.span)) return;
   if (row.type == ValueType::choice && choiceSetting(b, row, name.span)) return;
+  if (row.isList() && listSetting(b, row, name.span)) return;
+  if (row.type == ValueType::function && functionSetting(b, row, name.span)) return;
   const Token ahead = stream_.peek();
   const bool isName = ahead.kind == Token::Kind::name;
+  if (isName && row.type != ValueType::boolean && words_.isKind(*ahead.text) &&
+      !b.mayContain(*ahead.text) && !words_.standsAlone(*ahead.text)) {  // meant as the value
+    const BlockPtr given = std::make_shared<const Block>(block());
+    b.set(row, name.span, given, given->span);
+    return;
+  }
   const bool isItem = isName && !context_.symbols.find(ahead.text) &&
                       (b.row(*ahead.text) || isTransformWord(*ahead.text));
   const bool isMissing = isItem || (isName && words_.opensBlock(*ahead.text)) ||
@@ -299,35 +317,50 @@ bool Parser::choiceSetting(BlockBuilder& b, const Parameter& row, const Span& na
 
 // pigment := 'pigment' ... | name of a declared pigment
 bool Parser::pigmentSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan) {
+  std::optional<Block> given = pigment();
+  if (given) b.setBlock(row, nameSpan, std::move(*given));
+  return given.has_value();
+}
+
+std::optional<Block> Parser::pigment() {
   const Token t = stream_.peek();
   if (t.isWord("pigment")) {
     stream_.next();
     const Nested nested(context_, t.span);
     countBlocks(context_, Block{}, t.span);
-    b.setBlock(row, nameSpan, finishBlock(head("pigment", {nullptr, t.span}), Braces::optional));
-    return true;
+    return finishBlock(head("pigment", {nullptr, t.span}), Braces::optional);
   }
   const BlockPtr declared = declaredBlock(t);
-  if (!declared || declared->kind != "pigment") return false;
+  if (!declared || declared->kind != "pigment") return {};
   stream_.next();
   countBlocks(context_, *declared, t.span);
-  b.setBlock(row, nameSpan, *declared);
-  return true;
+  return *declared;
 }
 
 // block := [kind] plugin ['{' item* '}'] | '{' plugin item* '}' | name
 // A parameter that is called like a plugin means it: `image { "sky.exr" }`.
 void Parser::blockSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan) {
+  b.setBlock(row, nameSpan, blockOf(row, nameSpan));
+}
+
+Block Parser::blockOf(const Parameter& row, const Span& nameSpan) {
   const std::string& kind = row.blockKind;
   const Nested nested(context_, nameSpan);
   countBlocks(context_, Block{}, nameSpan);
   Head start{nullptr, nameSpan};
-  if (row.name != kind && isAhead(kind.c_str())) stream_.next();
-  if (stream_.peek().is("{") && !words_.find(kind, *stream_.peekRaw(1).text))
-    start.schema = words_.find(kind, row.name);
+  if (row.name != kind) start.after = row.name;
+  const bool hasName = stream_.peek().kind == Token::Kind::name;
+  if (row.name != kind && hasName) start.span = stream_.peek().span;  // the block's own head
+  if (row.name != kind && isAhead(kind.c_str())) {
+    stream_.next();
+    start.after.clear();
+  }
+  const Token inside = stream_.peek().is("{") ? stream_.peekRaw(1) : Token{};
+  const bool isPlugin = inside.kind == Token::Kind::name && words_.find(kind, *inside.text);
+  if (stream_.peek().is("{") && !isPlugin) start.schema = words_.find(kind, row.name);
   if (!words_.isKind(kind))
     context_.reporter.syntaxError(nameSpan, "no plugin of kind '" + kind + "' is installed");
-  b.setBlock(row, nameSpan, finishBlock(head(kind, start), Braces::optional));
+  return finishBlock(head(kind, start), Braces::optional);
 }
 
 // A block inside a block. One that cannot stand here but could outside: a '}' was forgotten.
@@ -344,12 +377,7 @@ Parser::Next Parser::nested(BlockBuilder& b, const Token& t) {
     pigmentSetting(b, *next, t.span);
     return Next::more;
   }
-  if (!isObject && !words_.standsAlone(kind))
-    context_.reporter.syntaxError(
-        t.span, "a " + kind + " cannot stand in '" + b.title() + "'" +
-                    (kind == "pigment" ? " by itself: write the parameter that it is for, as in "
-                                         "'diffuse pigment ...'"
-                                       : ""));
+  if (!isObject && !words_.standsAlone(kind)) misplaced(b, t, "a " + kind, kind);
   b.forgiveMissing();
   ++assumedBraces_;
   context_.reporter.error(
@@ -361,15 +389,30 @@ Parser::Next Parser::nested(BlockBuilder& b, const Token& t) {
 
 void Parser::declaredItem(BlockBuilder& b, const Token& t, const Block& declared) {
   if (!b.mayContain(declared.kind)) {
-    const bool isPigment = declared.kind == "pigment";
-    context_.reporter.syntaxError(
-        t.span, "'" + *t.text + "' is " + describe(Datum(std::make_shared<const Block>(declared))) +
-                    ", which cannot stand in '" + b.title() + "'" +
-                    (isPigment ? " by itself: write the parameter that it is for" : ""));
+    const Datum found = std::make_shared<const Block>(declared);
+    misplaced(b, t, "'" + *t.text + "' is " + describe(found) + ", which", declared.kind);
   }
   stream_.next();
   countBlocks(context_, declared, t.span);
   b.add(declared);
+}
+
+/// Says which parameter the block may be meant for, if there is one that takes it.
+void Parser::misplaced(const BlockBuilder& b, const Token& found, const std::string& what,
+                       const std::string& kind) {
+  std::string advice;
+  const bool isPigment = kind == "pigment";
+  for (const auto* rows : {&b.schema().inputs, &b.schema().params})
+    for (const Parameter& p : *rows)
+      if (advice.empty() && !p.isList() &&
+          (isPigment ? p.texturable : p.type == ValueType::block && p.blockKind == kind))
+        advice = " by itself: write the parameter that it is for, as in '" + p.name + " " + kind +
+                 " ...'";
+  if (isPigment && b.mayContain("brdf"))
+    advice = " by itself: write it in a brdf, as in 'brdf lambert { diffuse pigment ... }'";
+  else if (isPigment && advice.empty())
+    advice = ": none of its parameters takes a pigment";
+  context_.reporter.syntaxError(found.span, what + " cannot stand in '" + b.title() + "'" + advice);
 }
 
 void Parser::unknownItem(BlockBuilder& b, const Token& t) {

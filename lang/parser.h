@@ -34,6 +34,7 @@ class Parser {
     BlockPtr base = nullptr;
     bool isOpen = false;  ///< '{' has been taken
     Span brace = {};
+    std::string after = "";  ///< the word that asks for it, if that is not its kind
   };
   enum class Braces { needed, optional };
 
@@ -44,7 +45,8 @@ class Parser {
   Block finishBlock(Head head, Braces braces);
   Head head(const std::string& kind, Head head);
   bool headName(const std::string& kind, Head& head);
-  [[noreturn]] void unknownPlugin(const std::string& kind, const Token& found);
+  [[noreturn]] void unknownPlugin(const std::string& kind, const Token& found,
+                                  const std::string& after = "");
 
   void items(BlockBuilder& b, const Span& brace);
   void neverClosed(BlockBuilder& b, const Span& brace);
@@ -53,8 +55,19 @@ class Parser {
   void positional(BlockBuilder& b);
   void setting(BlockBuilder& b, const Parameter& row);
   void blockSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
+  Block blockOf(const Parameter& row, const Span& nameSpan);
   bool pigmentSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
+  std::optional<Block> pigment();
   bool choiceSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
+  bool listSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
+  List list(const Parameter& row);
+  List map(const Parameter& row);
+  Entry mapEntry(const Parameter& row, const Parameter& entry, const List& before);
+  Value entryValue(const Parameter& entry, const std::string& who);
+  void addEntry(List& list, Entry entry);
+  bool functionSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan);
+  [[noreturn]] void misplaced(const BlockBuilder& b, const Token& found, const std::string& what,
+                              const std::string& kind);
   Next nested(BlockBuilder& b, const Token& word);
   void declaredItem(BlockBuilder& b, const Token& name, const Block& declared);
   void unknownItem(BlockBuilder& b, const Token& name);
@@ -68,6 +81,7 @@ class Parser {
   Affine matrix();
   std::optional<Numbers> transformVector(const std::string& word, Span& span);
   Declared function();
+  Declared functionBehind(const Span& word);
   Declared array();
   void elements(Array& array, std::size_t level, std::size_t first);
 

@@ -2,6 +2,7 @@
 // What an expression is worth, while the text is read.
 #pragma once
 #include <array>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -41,12 +42,14 @@ using ArrayPtr = std::shared_ptr<const Array>;
 using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, Affine, FunctionPtr,
                            ArrayPtr, MacroPtr>;
 
-/// A share of a total that is given back when its owner goes: bounds what lives at one time.
+/// What lives at one time. A scene gives back its shares wherever it ends: on any thread.
+using Total = std::shared_ptr<std::atomic<std::int64_t>>;
+
+/// A share of a total that is given back when its owner goes.
 class Share {
  public:
   Share() = default;
-  Share(std::shared_ptr<std::int64_t> total, std::int64_t size)
-      : total_(std::move(total)), size_(size) {
+  Share(Total total, std::int64_t size) : total_(std::move(total)), size_(size) {
     *total_ += size_;
   }
   Share(const Share& other) : total_(other.total_), size_(other.size_) {
@@ -63,7 +66,7 @@ class Share {
   }
 
  private:
-  std::shared_ptr<std::int64_t> total_;
+  Total total_;
   std::int64_t size_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/vocabulary.h"
 
+#include <algorithm>
 #include <map>
 
 #include "lang/builtins.h"
@@ -15,12 +16,25 @@ bool Vocabulary::opensBlock(const std::string& word) const {
   return word == "object" || isKind(word) || isShape(word);
 }
 
-// A list, and not "what is no part of another block": to know that, all schemas would have to be
-// read.
 bool Vocabulary::standsAlone(const std::string& kind) const {
-  static const std::set<std::string> alone = {"camera", "film",  "integrator",
-                                              "light",  "shape", "union"};
-  return isKind(kind) && alone.count(kind) > 0;
+  return isAnyOf(kind, [](const Schema& s) { return s.standsAlone; });
+}
+
+std::vector<std::string> Vocabulary::holders(const std::string& kind) const {
+  std::vector<std::string> found;
+  for (const std::string& outer : kinds_)
+    if (isAnyOf(outer, [&](const Schema& s) {
+          return std::find(s.children.begin(), s.children.end(), kind) != s.children.end();
+        }))
+      found.push_back(outer);
+  return found;
+}
+
+bool Vocabulary::isAnyOf(const std::string& kind,
+                         const std::function<bool(const Schema&)>& is) const {
+  for (const std::string& plugin : isKind(kind) ? plugins(kind) : std::vector<std::string>())
+    if (const Schema* s = find(kind, plugin); s && is(*s)) return true;
+  return false;
 }
 
 std::vector<std::string> Vocabulary::blockWords() const {
@@ -127,10 +141,6 @@ const char* insteadOf(const std::string& word) {
 bool isTransformWord(const std::string& word) {
   return word == "translate" || word == "rotate" || word == "scale" || word == "matrix" ||
          word == "transform";
-}
-
-bool isMovable(const std::string& kind) {
-  return kind != "film" && kind != "integrator" && kind != "footprint";
 }
 
 bool isExpressionWord(const std::string& word) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The words that the schemas bring, and those that POV-Ray has and this language has not.
 #pragma once
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,10 +22,12 @@ class Vocabulary {
   bool isShape(const std::string& word) const { return schemas_.has("shape", word); }
   /// Begins a block: a kind, a shape or `object`.
   bool opensBlock(const std::string& word) const;
-  /// Kinds that may stand outside every other block.
-  bool standsAlone(const std::string& kind) const;
 
   // For messages: these may take long.
+  /// Whether blocks of a kind may stand outside every other block.
+  bool standsAlone(const std::string& kind) const;
+  /// Kinds of blocks that may hold one of a kind.
+  std::vector<std::string> holders(const std::string& kind) const;
   /// Names of a kind's plugins; {""} for a kind that has none.
   std::vector<std::string> plugins(const std::string& kind) const { return schemas_.names(kind); }
   /// Every word that opens a block.
@@ -33,6 +36,9 @@ class Vocabulary {
   void explain(Diagnostic& d, const std::string& kind, const std::string& plugin) const;
 
  private:
+  /// Whether some block of a kind is so.
+  bool isAnyOf(const std::string& kind, const std::function<bool(const Schema&)>& is) const;
+
   const SchemaSource& schemas_;
   std::set<std::string> kinds_;
 };
@@ -41,8 +47,6 @@ class Vocabulary {
 const char* insteadOf(const std::string& word);
 /// translate, rotate, scale, matrix, transform.
 bool isTransformWord(const std::string& word);
-/// Kinds of blocks that have no place in space.
-bool isMovable(const std::string& kind);
 /// Words with a fixed meaning in expressions: x, pi, rgb, true, sin, ...
 bool isExpressionWord(const std::string& word);
 /// "a, b or c"

@@ -296,7 +296,7 @@ void Window::focusAt(double x, double y) {
   Block next = withView(*block, cameraSchema(),
                         {view->location, view->location + depth * forward, view->sky});
   if (cameraSchema().find("focus_distance")) {
-    std::erase_if(next.settings, [](const Setting& s) { return s.name == "focal_point"; });
+    std::erase_if(next.settings.edit(), [](const Setting& s) { return s.name == "focal_point"; });
     next = withNumber(next, "focus_distance", double(depth));
   }
   useCamera(next);

@@ -20,7 +20,7 @@ std::optional<Vec3> vectorOf(const Block& block, const Schema& schema, const std
 }
 
 void set(Block& block, const std::string& name, Value value) {
-  std::erase_if(block.settings, [&](const Setting& s) { return s.name == name; });
+  std::erase_if(block.settings.edit(), [&](const Setting& s) { return s.name == name; });
   block.settings.push_back({name, std::move(value), {}});
 }
 
@@ -57,7 +57,7 @@ std::string text(const Value& v) {
     case Value::Kind::number:
       return text(v.v[0]);
     case Value::Kind::text:
-      return '"' + v.text + '"';
+      return '"' + v.text.str() + '"';
     case Value::Kind::vector:
     case Value::Kind::colour: {
       std::string t = v.kind == Value::Kind::colour ? "rgb <" : "<";
@@ -85,7 +85,7 @@ Block withView(const Block& camera, const Schema& schema, const View& view) {
   Block b = camera;
   // What the transforms did to lengths and points they do no more.
   const double size = std::cbrt(std::abs(camera.world.determinant()));
-  for (Setting& s : b.settings) {
+  for (Setting& s : b.settings.edit()) {
     const Parameter* row = schema.find(s.name);
     if (!row || row->unit != "scene units") continue;
     if (row->type == ValueType::real) s.value.v[0] = rounded(s.value.v[0] * size);
@@ -110,7 +110,7 @@ Block placed(const Block& camera, const Schema& schema) {
 Block withNumber(Block camera, const std::string& name, double value) {
   // The camera takes one of them.
   if (name == "focus_distance")
-    std::erase_if(camera.settings, [](const Setting& s) { return s.name == "focal_point"; });
+    std::erase_if(camera.settings.edit(), [](const Setting& s) { return s.name == "focal_point"; });
   set(camera, name, numberValue(rounded(value)));
   return camera;
 }

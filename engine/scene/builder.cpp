@@ -31,6 +31,21 @@ bool isEngineRow(const std::string& name) {
 /// A word of a key, which cannot run into the next.
 std::string word(const std::string& text) { return fmt::format("{}:{}", text.size(), text); }
 
+/// A value as part of a key; false where it holds a block.
+bool addValue(std::string& key, const Value& value) {
+  if (value.kind == Value::Kind::block) return false;
+  key += word(value.text);
+  for (const double x : value.v) key += fmt::format("{},", x);
+  if (value.function) key += fmt::format("f{},", value.function->fingerprint());
+  if (!value.list) return true;
+  key += fmt::format("[{}:", value.list->entries.size());
+  for (const Entry& entry : value.list->entries) {
+    key += fmt::format("{},", entry.key);
+    if (!addValue(key, entry.value)) return false;
+  }
+  return true;
+}
+
 /// Text that is the same for blocks that create the same shape with the same plugin: a library that
 /// was built anew has another entry. "" where that cannot be told.
 std::string shapeKey(const Block& block, const SceneDesc& description, const Plugin& plugin) {
@@ -43,10 +58,9 @@ std::string shapeKey(const Block& block, const SceneDesc& description, const Plu
   addText(block.span);
   for (const Setting& s : block.settings) {
     if (isEngineRow(s.name)) continue;
-    if (s.value.kind == Value::Kind::block) return "";
-    key += word(s.name) + word(s.value.text);
-    if (!s.value.text.empty()) addText(s.value.span);
-    for (const double x : s.value.v) key += fmt::format("{},", x);
+    key += word(s.name);
+    if (!addValue(key, s.value)) return "";
+    if (!s.value.text.empty() || s.value.list) addText(s.value.span);
   }
   return key;
 }
@@ -126,13 +140,17 @@ std::shared_ptr<Interface> SceneBuilder::create(const Block& block) {
   const std::vector<Parameter>& rows = registry_.find(block.kind, block.plugin)->schema->params;
   const std::vector<Value> values = valuesFor(rows, block);
   host_.setPlace(at(block.span));
-  VestigeError why{"", -1};
+  VestigeError why{"", -1, -1};
   auto made = registry_.create<Interface>(block.kind, block.plugin,
                                           Values(values, traced(block.world)), host_, why);
   if (!made) {
     Span span = at(block.span);
-    if (why.input >= 0 && why.input < int(values.size()) && values[why.input].span.file >= 0)
-      span = values[why.input].span;
+    if (why.input >= 0 && why.input < int(values.size()) && values[why.input].span.file >= 0) {
+      const Value& blamed = values[why.input];
+      const int entries = blamed.list ? int(blamed.list->entries.size()) : 0;
+      span = why.entry >= 0 && why.entry < entries ? blamed.list->entries[why.entry].span
+                                                   : blamed.span;
+    }
     error(span, fmt::format("{}: {}", described(block), why.text));
   }
   return made;

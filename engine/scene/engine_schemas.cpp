@@ -41,18 +41,28 @@ std::vector<Schema> engineSchemas() {
                 .doc("pixel filter, drawn by importance; box is one pixel wide, the others three"),
             parameter("crop", ValueType::vec4, whole)
                 .range(0, 1)
-                .doc("<left, top, right, bottom> as shares of the picture")}},
+                .doc("<left, top, right, bottom> as shares of the picture")},
+       .standsAlone = true,
+       .isSingle = true,
+       .isMovable = false},
       {.kind = "union",
        .name = "",
        .summary = "several shapes as one: a brdf or a transform after them is for all",
        .params = visibilityRows(),
-       .children = {"shape", "union", "brdf"}},
+       .children = {"shape", "union", "brdf"},
+       .standsAlone = true},
   };
   all.insert(all.end(), std::begin(blocks), std::end(blocks));
   return all;
 }
 
 Schema withEngineRows(Schema schema) {
+  const auto isOneOf = [&](std::initializer_list<const char*> kinds) {
+    return std::find(kinds.begin(), kinds.end(), schema.kind) != kinds.end();
+  };
+  schema.standsAlone |= isOneOf({"camera", "integrator", "light", "shape"});
+  schema.isSingle |= isOneOf({"camera", "integrator"});
+  schema.isMovable &= schema.kind != "integrator";
   if (schema.kind == "brdf") {
     schema.inputs.push_back(
         parameter(kNormalMap, ValueType::rgb, colourValue(0.5, 0.5, 1))

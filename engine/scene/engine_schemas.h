@@ -11,9 +11,10 @@ namespace vestige {
 /// Blocks without a plugin: film, union.
 std::vector<Schema> engineSchemas();
 
-/// A plugin's schema as the language sees it: inputs are texturable; a brdf has `normal_map` and
-/// `opacity` after its own inputs and `opacity_cutoff` after its parameters, a shape `emission` and
-/// a brdf inside; shapes and lights say to which rays they are visible.
+/// A plugin's schema as the language sees it: blocks of the engine's own kinds stand where they may;
+/// inputs are texturable; a brdf has `normal_map` and `opacity` after its own inputs and
+/// `opacity_cutoff` after its parameters, a shape `emission` and a brdf inside; shapes and lights
+/// say to which rays they are visible.
 Schema withEngineRows(Schema schema);
 
 /// How many inputs withEngineRows() appends to a brdf: normal_map, then opacity.

@@ -26,6 +26,14 @@ Value promoted(const Parameter& row, Value value) {
     value.kind = row.type == ValueType::rgb ? Value::Kind::colour : Value::Kind::vector;
     value.size = size;
   }
+  const auto isNumber = [](const Entry& e) { return e.value.kind == Value::Kind::number; };
+  if (value.list && sizeOf(row.entryType) > 1 &&
+      std::any_of(value.list->entries.begin(), value.list->entries.end(), isNumber)) {
+    const Parameter entry = row.entry();
+    auto list = std::make_shared<List>(*value.list);
+    for (Entry& e : list->entries) e.value = promoted(entry, e.value);
+    value.list = std::move(list);
+  }
   return value;
 }
 

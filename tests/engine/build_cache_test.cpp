@@ -56,12 +56,6 @@ class Files {
   int count_ = 0;
 };
 
-Value blockValue(Block block) {
-  Value v;
-  v.kind = Value::Kind::block, v.block = std::make_shared<Block>(std::move(block));
-  return v;
-}
-
 Affine moved(double x, double y, double z) {
   Affine a;
   a.m[0][3] = x, a.m[1][3] = y, a.m[2][3] = z;
@@ -194,8 +188,8 @@ TEST_CASE("a second build reads and builds only what has changed", "[cache]") {
     check(reloads.use(s), 0, 0, true);
   }
   SECTION("the radiance of lights") {
-    s.blocks[kArea].settings.back().value = colourValue(1, 2, 3);
-    s.blocks[kGlow].settings.back().value = colourValue(1, 2, 3);
+    s.blocks[kArea].settings.edit().back().value = colourValue(1, 2, 3);
+    s.blocks[kGlow].settings.edit().back().value = colourValue(1, 2, 3);
     check(reloads.use(s), 0, 0, true);
   }
   SECTION("which shapes shine, and with them the numbers of lights") {
@@ -204,13 +198,13 @@ TEST_CASE("a second build reads and builds only what has changed", "[cache]") {
     check(reloads.use(s), 0, 0, true);
   }
   SECTION("camera, film and integrator") {
-    s.blocks[kCamera].settings[0].value = vectorValue({1, 2, -5});
-    s.blocks[kFilm].settings[0].value = vectorValue({20, 20});
-    s.blocks[kIntegrator].settings[0].value = numberValue(2);
+    s.blocks[kCamera].settings.edit()[0].value = vectorValue({1, 2, -5});
+    s.blocks[kFilm].settings.edit()[0].value = vectorValue({20, 20});
+    s.blocks[kIntegrator].settings.edit()[0].value = numberValue(2);
     check(reloads.use(s), 0, 0, true);
   }
   SECTION("opacity") {
-    s.blocks[kBall].children[0].settings.push_back({"opacity", numberValue(0.5), {}});
+    s.blocks[kBall].children.edit()[0].settings.push_back({"opacity", numberValue(0.5), {}});
     check(reloads.use(s), 0, 0, false);
   }
   SECTION("a picture") {
@@ -234,7 +228,7 @@ TEST_CASE("a second build reads and builds only what has changed", "[cache]") {
     check(reloads.use(s), 0, 0, false);
   }
   SECTION("the place of a light with a surface") {
-    s.blocks[kArea].settings[0].value = vectorValue({-1, 3, -2});
+    s.blocks[kArea].settings.edit()[0].value = vectorValue({-1, 3, -2});
     check(reloads.use(s), 0, 0, false);
   }
   SECTION("a shape more") {
@@ -333,7 +327,7 @@ TEST_CASE("nothing grows with the number of reloads", "[cache]") {
   const std::size_t open = openFiles();
   for (int k = 0; k < 200; ++k) {
     if (k % 10 == 0) files.writePicture(k), files.writeMesh(1 + k);
-    s.blocks[kBall].settings[1].value = numberValue(0.5 + 0.001 * k);
+    s.blocks[kBall].settings.edit()[1].value = numberValue(0.5 + 0.001 * k);
     s.blocks[kLeft].world = moved(0, 0, -1.5 - 0.01 * k);
     shown = reloads.build(s);
     REQUIRE(shown);

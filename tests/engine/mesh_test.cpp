@@ -133,7 +133,7 @@ TEST_CASE("an OBJ file's materials become blocks", "[mesh]") {
   REQUIRE(map.kind == Value::Kind::block);
   CHECK(map.block->kind == "pigment");
   CHECK(map.block->plugin == "image");
-  CHECK(std::filesystem::path(setting(*map.block, "file").text).is_absolute());
+  CHECK(std::filesystem::path(setting(*map.block, "file").text.str()).is_absolute());
   CHECK_THAT(setting(*map.block, "file").text, containsText("wood.png"));
   CHECK(setting(*map.block, "wrap").text == "repeat");
   CHECK(setting(*map.block, "scale_value").v[1] == Approx(0.2));

@@ -77,6 +77,44 @@ TEST_CASE("each limit has its message and its flag", "[lang]") {
   }
 }
 
+TEST_CASE("long lists and dear functions are refused", "[lang]") {
+  Options o;
+  o.limits.arrayElements = 1000;
+  o.limits.blocks = 3000;
+  const std::string flag = "--max-array-elements";
+  CHECK_THAT(errorsOf("lathe { profile [" + repeated("0 ", 1001) + "] }", o), containsText(flag));
+  CHECK_THAT(errorsOf("#for (I, 1, 3) lathe { profile [" + repeated("0 ", 400) + "] } #end", o),
+             containsText(flag));
+  CHECK_THAT(
+      errorsOf("#declare P = array[600] { " + repeated("0 ", 600) + "}; lathe { profile P }", o),
+      containsText(flag));
+  // Copies share the list.
+  CHECK(errorsOf("#declare L = lathe { profile [" + repeated("0 ", 900) +
+                     "] }; #for (I, 1, 100) object { L translate I } #end",
+                 o)
+            .empty());
+  CHECK_THAT(errorsOf("#declare P = pigment checker { };" +
+                          std::string("#declare L = pigment layers "
+                                      "{ parts [") +
+                          repeated("P ", 100) + "] };" +
+                          repeated("sphere { 0, 1 brdf lambert { diffuse L } }", 100),
+                      o),
+             containsText("--max-blocks"));
+  std::string text = "#declare F0 = function { x + 1 };";
+  for (int i = 1; i < 30; ++i) {
+    const std::string f = std::to_string(i), g = std::to_string(i - 1);
+    text += "#declare F" + f + " = function { F" + g + "(x, y, z) + F" + g + "(x, y, z) };";
+  }
+  CHECK(errorsOf(text + "isosurface { function F10 }", {}).empty());
+  CHECK_THAT(errorsOf(text + "#declare W = function { max(" + repeated("F10(x, y, z), ", 200) +
+                          "x) }; isosurface { function W }",
+                      {}),
+             containsText("calls too many"));
+  CHECK_THAT(errorsOf(text + "isosurface { function F29 }", {}), containsText("calls too many"));
+  CHECK_THAT(errorsOf("isosurface { function { max(" + repeated("x, ", 300) + "y) } }", {}),
+             containsText("too long"));
+}
+
 TEST_CASE("what lived before does not count against the arrays", "[lang]") {
   Options o;
   o.limits.arrayElements = 1000;
@@ -209,6 +247,12 @@ TEST_CASE("any soup of tokens is read to its end", "[lang]") {
                                           "brdf phong {",
                                           "#declare N = union {",
                                           "array[2] {",
+                                          "lathe { profile [",
+                                          "pigment ramp { colour_map [",
+                                          "isosurface { function {",
+                                          "base brdf coat {",
+                                          "brdf mix {",
+                                          "parts [",
                                           "A[0]"};
   Options o;
   o.limits.loopIterations = 200;

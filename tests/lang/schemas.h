@@ -18,6 +18,36 @@ inline Parameter textured(Parameter p) {
   return p;
 }
 
+/// Blocks that hold blocks of their own kind, lists, maps and functions.
+inline void addCompound(std::vector<Schema>& s) {
+  s.push_back({"brdf", "mix", "", {real("amount", 0.5).range(0, 1)}, {}, {"brdf"}});
+  s.push_back({"brdf", "coat", "", {block("base", "brdf").need()}});
+  s.push_back({"pigment",
+               "tiles",
+               "",
+               {rgb("first", 1).place().textured(), rgb("second", 0).place().textured()}});
+  s.push_back({"pigment",
+               "ramp",
+               "",
+               {map("colour_map", ValueType::rgb).textured().keys(0, 1).range(0, 1).need(),
+                list("seeds", ValueType::integer).entries(3, 3)}});
+  s.push_back({"pigment", "layers", "", {list("parts", ValueType::block).of("pigment")}});
+  s.push_back(
+      {"shape",
+       "lathe",
+       "",
+       {list("profile", ValueType::vec2)
+            .need()
+            .place()
+            .range(-100, 100)
+            .entries(2, 2'000'000)
+            .in("scene units"),
+        list("files", ValueType::file), list("weights", ValueType::real), function("bend", 1)},
+       {},
+       {"brdf"}});
+  s.push_back({"shape", "isosurface", "", {function("function", 3).need()}, {}, {"brdf"}});
+}
+
 inline const SchemaSource& schemas() {
   static const vestige::test::SchemaList all = [] {
     const std::vector<std::string> shapeParts = {"brdf"};
@@ -80,6 +110,15 @@ inline const SchemaSource& schemas() {
         {"shape", "plane", "", {point("normal"), real("distance", 0).place()}, {}, shapeParts});
     s.push_back({"shape", "mesh", "", {file("file").need().place()}, {}, shapeParts});
     s.push_back({"union", "", "shapes together", {}, {}, {"shape", "union", "brdf"}});
+    addCompound(s);
+    for (Schema& each : s) {
+      const auto isOneOf = [&](std::initializer_list<const char*> kinds) {
+        return std::find(kinds.begin(), kinds.end(), each.kind) != kinds.end();
+      };
+      each.standsAlone = isOneOf({"camera", "film", "integrator", "light", "shape", "union"});
+      each.isSingle = isOneOf({"camera", "film", "integrator"});
+      each.isMovable = !isOneOf({"film", "integrator", "footprint"});
+    }
     return vestige::test::SchemaList(s);
   }();
   return all;

@@ -40,7 +40,7 @@ inline Block brdf(const std::string& name, Settings settings) {
 
 inline Block placed(Block shape, const Affine& t) {
   shape.own = shape.world = t;
-  for (Block& child : shape.children) child.world = t;
+  for (Block& child : shape.children.edit()) child.world = t;
   return shape;
 }
 

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Why create() refused; `input` is the schema row (of params) to blame, or -1.
+/// Why create() refused; `input` is the schema row (of params) to blame, or -1; `entry` that of the
+/// row's list, or -1.
 extern "C" struct VestigeError {
   char text[512];
   int input;
+  int entry;
 };
 
 /// The one symbol that a plugin library exports: `vestige_plugin`, of this plain-C type. The engine

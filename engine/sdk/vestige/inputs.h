@@ -18,22 +18,42 @@ class Values {
   Real real(int i) const { return Real(rows_[i].v[0]); }
   std::int64_t integer(int i) const { return std::int64_t(rows_[i].v[0]); }
   bool flag(int i) const { return rows_[i].v[0] != 0; }
-  Vec2 vec2(int i) const { return {Real(rows_[i].v[0]), Real(rows_[i].v[1])}; }
-  Vec3 vec3(int i) const { return {Real(rows_[i].v[0]), Real(rows_[i].v[1]), Real(rows_[i].v[2])}; }
-  Rgb rgb(int i) const { return {Real(rows_[i].v[0]), Real(rows_[i].v[1]), Real(rows_[i].v[2])}; }
+  Vec2 vec2(int i) const { return vec2Of(rows_[i]); }
+  Vec3 vec3(int i) const { return vec3Of(rows_[i]); }
+  Rgb rgb(int i) const { return rgbOf(rows_[i]); }
   const std::string& text(int i) const { return rows_[i].text; }
   /// The block given, or null.
   const Block* block(int i) const { return rows_[i].block.get(); }
+  /// The function given, or null; it may be kept.
+  std::shared_ptr<const Function> function(int i) const { return rows_[i].function; }
   /// Whether there is a value at all: given, or a default.
   bool has(int i) const { return rows_[i].kind != Value::Kind::none; }
   Span span(int i) const { return rows_[i].span; }
   const Value& value(int i) const { return rows_[i]; }
+
+  // Of a list or a map in row i: how many entries, and what entry j holds. Counts and ranges are as
+  // the schema says; a row that was not given has no entries.
+  int size(int i) const { return rows_[i].list ? int(rows_[i].list->entries.size()) : 0; }
+  const Value& value(int i, int j) const { return rows_[i].list->entries[std::size_t(j)].value; }
+  Real key(int i, int j) const { return Real(rows_[i].list->entries[std::size_t(j)].key); }
+  Real real(int i, int j) const { return Real(value(i, j).v[0]); }
+  Vec2 vec2(int i, int j) const { return vec2Of(value(i, j)); }
+  Vec3 vec3(int i, int j) const { return vec3Of(value(i, j)); }
+  Rgb rgb(int i, int j) const { return rgbOf(value(i, j)); }
+  const std::string& text(int i, int j) const { return value(i, j).text; }
+  /// The block that entry j holds, or null.
+  const Block* block(int i, int j) const { return value(i, j).block.get(); }
+  Span span(int i, int j) const { return rows_[i].list->entries[std::size_t(j)].span; }
 
   /// From the block's own space to world space. Lights and cameras apply it themselves; shapes and
   /// pigments are asked in their own space and must not.
   const Affine& toWorld() const { return toWorld_; }
 
  private:
+  static Vec2 vec2Of(const Value& v) { return {Real(v.v[0]), Real(v.v[1])}; }
+  static Vec3 vec3Of(const Value& v) { return {Real(v.v[0]), Real(v.v[1]), Real(v.v[2])}; }
+  static Rgb rgbOf(const Value& v) { return {Real(v.v[0]), Real(v.v[1]), Real(v.v[2])}; }
+
   std::span<const Value> rows_;
   Affine toWorld_;
 };

@@ -24,14 +24,17 @@
 namespace vestige {
 
 /// Thrown by a plugin's constructor: the message for the user and the row of Schema::params that is
-/// to blame (-1: the block as a whole).
+/// to blame (-1: the block as a whole), with the entry of its list (-1: the list as a whole).
 class PluginError : public std::runtime_error {
  public:
-  PluginError(int input, const std::string& message) : std::runtime_error(message), input_(input) {}
+  PluginError(int input, const std::string& message) : PluginError(input, -1, message) {}
+  PluginError(int input, int entry, const std::string& message)
+      : std::runtime_error(message), input_(input), entry_(entry) {}
   int input() const noexcept { return input_; }
+  int entry() const noexcept { return entry_; }
 
  private:
-  int input_;
+  int input_, entry_;
 };
 
 namespace detail {
@@ -48,9 +51,10 @@ Class* construct(const Values& values, Host& host) {
 
 template <class Interface, class Class>
 void* create(const void* values, void* host, VestigeError* error) {
-  const auto refuse = [&](const char* why, int input) {
+  const auto refuse = [&](const char* why, int input, int entry = -1) {
     std::snprintf(error->text, sizeof error->text, "%s", why);
     error->input = input;
+    error->entry = entry;
     return nullptr;
   };
   try {
@@ -58,7 +62,7 @@ void* create(const void* values, void* host, VestigeError* error) {
         construct<Class>(*static_cast<const Values*>(values), *static_cast<Host*>(host));
     return made;
   } catch (const PluginError& e) {
-    return refuse(e.what(), e.input());
+    return refuse(e.what(), e.input(), e.entry());
   } catch (const std::exception& e) {
     return refuse(e.what(), -1);
   } catch (...) {

@@ -7,11 +7,14 @@
 #include <vector>
 
 #include <vestige/diagnostic.h>
+#include <vestige/function.h>
 #include <vestige/math.h>
+#include <vestige/shared_list.h>
 
 namespace vestige {
 
 struct Block;
+struct List;
 
 /// One value of the language. Numbers are double here, whatever Real is.
 struct Value {
@@ -22,13 +25,29 @@ struct Value {
     colour,  ///< red green blue filter transmit, linear Rec. 709
     text,    ///< a string, or the word of a choice
     block,   ///< a pigment in place of a constant, a footprint policy, ...
+    list,    ///< of a ValueType::list or ValueType::map
+    function,
   };
   Kind kind = Kind::none;
   int size = 0;  ///< 2 to 5 for a vector, 5 for a colour
   double v[5] = {};
-  std::string text;
+  SharedText text;
   std::shared_ptr<const Block> block;
+  std::shared_ptr<const List> list;
+  std::shared_ptr<const Function> function;
   Span span;
+};
+
+/// One entry of a list, `<1, 2>`, or of a map, `[0.3 rgb 1]`.
+struct Entry {
+  double key = 0;  ///< of a map
+  Value value;
+  Span span;  ///< of the whole entry
+};
+
+struct List {
+  std::vector<Entry> entries;  ///< in the order written; keys never decrease
+  bool holdsBlocks = false;    ///< whether any value is a block
 };
 
 /// `name value` inside a block.
@@ -40,11 +59,11 @@ struct Setting {
 
 /// `kind plugin { settings, children }`, checked against its schema.
 struct Block {
-  std::string kind;               ///< "brdf", "shape", "union", "film", ...
-  std::string plugin;             ///< "phong", "sphere", ...; "" where the kind has no plugins
-  Span span;                      ///< of the head, `brdf phong`
-  std::vector<Setting> settings;  ///< a later one overrides an earlier one of the same name
-  std::vector<Block> children;    ///< in the order written: a shape's brdf, the parts of a union
+  std::string kind;              ///< "brdf", "shape", "union", "film", ...
+  std::string plugin;            ///< "phong", "sphere", ...; "" where the kind has no plugins
+  Span span;                     ///< of the head, `brdf phong`
+  SharedList<Setting> settings;  ///< a later one overrides an earlier one of the same name
+  SharedList<Block> children;    ///< in the order written: a shape's brdf, the parts of a union
   /// Transforms written inside this block's own braces. Moves what uv coordinates look up.
   Affine own;
   /// Everything that moves this block: its own, then those of the blocks around it that stand after
@@ -61,6 +80,13 @@ struct Block {
     for (auto b = children.rbegin(); b != children.rend(); ++b)
       if (b->kind == childKind) return &*b;
     return nullptr;
+  }
+  /// All children of a kind in the order written: the layers of a mixture.
+  std::vector<const Block*> childrenOf(const std::string& childKind) const {
+    std::vector<const Block*> found;
+    for (const Block& b : children)
+      if (b.kind == childKind) found.push_back(&b);
+    return found;
   }
 };
 

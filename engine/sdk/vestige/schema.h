@@ -13,17 +13,20 @@
 namespace vestige {
 
 enum class ValueType {
-  real,     ///< number
-  integer,  ///< whole number
-  boolean,  ///< true/false, on/off, yes/no, or a number
-  rgb,      ///< colour; a number or a 3-vector is taken as grey or as linear Rec. 709
-  vec2,     ///< <a, b>
-  vec3,     ///< <a, b, c>: a number is promoted, POV-Ray's rule
-  text,     ///< "string"
-  file,     ///< "file name", looked for beside the scene text
-  choice,   ///< one of `choices`, as a string or as a bare word
-  block,    ///< a block of kind `blockKind`
-  vec4,     ///< <a, b, c, d>
+  real,      ///< number
+  integer,   ///< whole number
+  boolean,   ///< true/false, on/off, yes/no, or a number
+  rgb,       ///< colour; a number or a 3-vector is taken as grey or as linear Rec. 709
+  vec2,      ///< <a, b>
+  vec3,      ///< <a, b, c>: a number is promoted, POV-Ray's rule
+  text,      ///< "string"
+  file,      ///< "file name", looked for beside the scene text
+  choice,    ///< one of `choices`, as a string or as a bare word
+  block,     ///< a block of kind `blockKind`
+  vec4,      ///< <a, b, c, d>
+  list,      ///< [a b c]: values of `entryType`
+  map,       ///< [k a] [l b]: values of `entryType`, each behind a key
+  function,  ///< of `arity` numbers, to a number
 };
 
 /// One row of a schema. Built by the functions below and the setters, which chain:
@@ -44,6 +47,13 @@ struct Parameter {
   std::string help;                ///< one line
   std::vector<std::string> choices;
   std::string blockKind;
+  /// Of a list or a map. Range, unit, choices, block kind and pigments are those of each value.
+  ValueType entryType = ValueType::real;
+  int minEntries = 1;
+  int maxEntries = std::numeric_limits<int>::max();
+  double lowKey = -std::numeric_limits<double>::infinity();
+  double highKey = std::numeric_limits<double>::infinity();
+  int arity = 0;  ///< of a function
 
   Parameter&& range(double from, double to) && { return low = from, high = to, std::move(*this); }
   Parameter&& positive() && { return low = 0, openLow = true, std::move(*this); }
@@ -56,9 +66,31 @@ struct Parameter {
     return std::move(*this);
   }
   Parameter&& nonlinear() && { return isNonlinear = true, std::move(*this); }
+  Parameter&& textured() && { return texturable = true, std::move(*this); }
+  Parameter&& entries(int from, int to) && {
+    minEntries = from;
+    maxEntries = to;
+    return std::move(*this);
+  }
+  Parameter&& keys(double from, double to) && {
+    lowKey = from;
+    highKey = to;
+    return std::move(*this);
+  }
+  /// Of which kind the blocks of a list are.
+  Parameter&& of(std::string kind) && { return blockKind = std::move(kind), std::move(*this); }
   Parameter&& in(std::string u) && { return unit = std::move(u), std::move(*this); }
   Parameter&& doc(std::string h) && { return help = std::move(h), std::move(*this); }
   Parameter&& unset() && { return initial = {}, std::move(*this); }
+
+  bool isList() const noexcept { return type == ValueType::list || type == ValueType::map; }
+  /// What one value of a list has to fit.
+  Parameter entry() const {
+    Parameter row = *this;
+    row.type = entryType;
+    row.initial = {};
+    return row;
+  }
 };
 
 inline Value numberValue(double x) {
@@ -81,6 +113,30 @@ inline Value textValue(std::string s) {
   Value v;
   v.kind = Value::Kind::text, v.text = std::move(s);
   return v;
+}
+inline Value blockValue(Block block) {
+  Value v;
+  v.kind = Value::Kind::block;
+  v.span = block.span;
+  v.block = std::make_shared<const Block>(std::move(block));
+  return v;
+}
+/// Of a map: with its keys.
+inline Value mapValue(std::vector<std::pair<double, Value>> entries) {
+  auto list = std::make_shared<List>();
+  for (auto& [key, value] : entries) {
+    list->holdsBlocks |= value.kind == Value::Kind::block;
+    list->entries.push_back({key, value, value.span});
+  }
+  Value v;
+  v.kind = Value::Kind::list;
+  v.list = std::move(list);
+  return v;
+}
+inline Value listValue(std::vector<Value> values) {
+  std::vector<std::pair<double, Value>> entries;
+  for (Value& value : values) entries.emplace_back(0, std::move(value));
+  return mapValue(std::move(entries));
 }
 
 inline Parameter parameter(std::string name, ValueType type, Value initial) {
@@ -125,6 +181,26 @@ inline Parameter block(std::string name, std::string kind) {
   return p;
 }
 
+/// `profile [<0, 0> <1, 2>]`: one or more values of a type, unless entries() says otherwise; no
+/// default. A name of an array gives them too.
+inline Parameter list(std::string name, ValueType entryType) {
+  Parameter p = parameter(std::move(name), ValueType::list, {});
+  p.entryType = entryType;
+  return p;
+}
+/// `colour_map { [0 rgb 0] [1 rgb 1] }`: the same with keys, which never decrease.
+inline Parameter map(std::string name, ValueType entryType) {
+  Parameter p = parameter(std::move(name), ValueType::map, {});
+  p.entryType = entryType;
+  return p;
+}
+/// `f function(x, y) { x*y }`, of that many numbers; no default.
+inline Parameter function(std::string name, int arity) {
+  Parameter p = parameter(std::move(name), ValueType::function, {});
+  p.arity = arity;
+  return p;
+}
+
 /// Everything that the scene language knows about one plugin.
 struct Schema {
   std::string kind;     ///< "brdf", "light", "camera", "integrator", "pigment", "shape", ...
@@ -133,6 +209,10 @@ struct Schema {
   std::vector<Parameter> params = {};      ///< fixed when the plugin is created: see Values
   std::vector<Parameter> inputs = {};      ///< may be textured, evaluated at each point: see Inputs
   std::vector<std::string> children = {};  ///< kinds of blocks that may stand inside
+  // The engine sets these for the plugins of its own kinds.
+  bool standsAlone = false;  ///< may stand outside every other block
+  bool isSingle = false;     ///< of several that stand alone only the last counts, with a warning
+  bool isMovable = true;     ///< takes transforms: it has a place in space
 
   /// The row of a name, or null.
   const Parameter* find(const std::string& word) const noexcept {

@@ -28,7 +28,7 @@ inline std::vector<Schema> footprintSchemas() {
       {"cone_density", "for comparison: a cone, max(spread, 1/(8 sqrt(pdf))) at every scattering"}};
   std::vector<Schema> all;
   for (const auto& [name, summary] : bounds) {
-    Schema s{.kind = "footprint", .name = name, .summary = summary};
+    Schema s{.kind = "footprint", .name = name, .summary = summary, .isMovable = false};
     if (s.name != "none")
       s.params = {real("limit", 0)
                       .unset()
