@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
     if (!schema) return std::fprintf(stderr, "no brdf %s\n", name), 3;
     std::vector<Value> values;
     for (const Parameter& row : schema->params) values.push_back(row.initial);
-    VestigeError why{"", -1};
+    VestigeError why{"", -1, -1};
     const auto brdf = registry.create<Brdf>("brdf", name, Values(values, {}), host, why);
     InputBuffer inputs{};
     for (std::size_t i = 0; i < schema->inputs.size(); ++i)

@@ -262,7 +262,7 @@ std::shared_ptr<Interface> SceneBuilder::tryOut(const Block& block) const {
       return nullptr;
   Diagnostics unheard;
   SceneHost host(description_, *impl_.textures, unheard, nullptr, nullptr);
-  VestigeError why{"", -1};
+  VestigeError why{"", -1, -1};
   return registry_.create<Interface>(block.kind, block.plugin, Values(values, block.world), host,
                                      why);
 }

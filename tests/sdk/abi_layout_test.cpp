@@ -13,7 +13,7 @@ namespace {
 static_assert(sizeof(void*) != 8 || sizeof(VestigePlugin) == 96);
 static_assert(alignof(VestigePlugin) == alignof(void*));
 static_assert(std::is_standard_layout_v<VestigePlugin> && std::is_trivial_v<VestigePlugin>);
-static_assert(sizeof(VestigeError) == 516 && offsetof(VestigeError, input) == 512);
+static_assert(sizeof(VestigeError) == 520 && offsetof(VestigeError, input) == 512);
 static_assert(std::is_standard_layout_v<VestigeError> && std::is_trivial_v<VestigeError>);
 
 // What must be readable of any library, however old: it decides whether the rest may be read.
