@@ -91,8 +91,8 @@ inline void writeValue(std::ostream& text, const std::string& name, const Value&
     text << "rgb ";
     list(3);
   }
-  if (value.kind == Value::Kind::text && isWord(value.text)) text << value.text;
-  if (value.kind == Value::Kind::text && !isWord(value.text)) text << '"' << value.text << '"';
+  if (value.kind == Value::Kind::text && isWord(value.text)) text << value.text.str();
+  if (value.kind == Value::Kind::text && !isWord(value.text)) text << '"' << value.text.str() << '"';
   if (value.kind != Value::Kind::block) return;
   if (value.block->plugin != name) text << value.block->plugin << " ";
   text << "{";
