@@ -103,7 +103,7 @@ std::string vertexText(std::size_t k, const PathVertex& v, const std::vector<std
     return fmt::format("{}  {}\n    throughput  {}\n", k, eventText(v), text(v.throughput));
   std::string t = fmt::format(
       "{}  {}\n    at          {}, {} from the last point\n", k, objectText(v.surface, loaded),
-      text(v.surface.position + loaded.scene->view().middle()), text(v.surface.distance));
+      text(v.surface.position + loaded.scene->view().middle), text(v.surface.distance));
   t +=
       fmt::format("    throughput  {} on arrival; the path {}\n", text(v.throughput), eventText(v));
   const VertexDifferentials& d = v.differentials;
@@ -133,7 +133,7 @@ Json vertexJson(const PathVertex& v, const std::vector<std::string>& names,
   if (isGone(v)) return j["direction"] = json(-v.toPrev), j;
   const ObjectInfo& o = loaded.scene->object(v.surface.object);
   j["shape"] = o.shape, j["brdf"] = o.brdf;
-  j["position"] = json(v.surface.position + loaded.scene->view().middle()),
+  j["position"] = json(v.surface.position + loaded.scene->view().middle),
   j["distance"] = v.surface.distance;
   j["normal"] = json(v.surface.normal), j["uv"] = {v.surface.uv.x, v.surface.uv.y};
   if (v.scattered)

@@ -38,65 +38,33 @@ struct Query {
   bool isShadow;
 };
 
-/// A scene that remembers what it was asked.
-class Recorder final : public SceneView {
+/// Remembers the rays that it was asked for.
+class Recorder final : public Tracer {
  public:
-  Recorder(const SceneView& scene, std::vector<Query>& queries) : s_(scene), queries_(queries) {}
+  Recorder(const Tracer& tracer, std::vector<Query>& queries)
+      : tracer_(tracer), queries_(queries) {}
 
   bool intersect(const Ray& ray, Surface& surface) const noexcept override {
     queries_.push_back({ray, false});
-    return s_.intersect(ray, surface);
+    return tracer_.intersect(ray, surface);
   }
   Rgb transmittance(const Ray& ray) const noexcept override {
     queries_.push_back({ray, true});
-    return s_.transmittance(ray);
+    return tracer_.transmittance(ray);
   }
-
-  void shade(const Surface& s, Vec3 toPrev, const Footprint& f, InputBuffer& buffer,
-             Interaction& x) const noexcept override {
-    s_.shade(s, toPrev, f, buffer, x);
-  }
-  bool shadowsMatchIndirect() const noexcept override { return s_.shadowsMatchIndirect(); }
-  Rgb opacity(const Surface& s) const noexcept override { return s_.opacity(s); }
-  Rgb emitted(const Surface& s, const Receiver& r) const noexcept override {
-    return s_.emitted(s, r);
-  }
-  Real lightPdf(const Surface& s, const Receiver& r) const noexcept override {
-    return s_.lightPdf(s, r);
-  }
-  std::span<const Light* const> lights() const noexcept override { return s_.lights(); }
-  std::optional<LightChoice> chooseLight(Real u) const noexcept override {
-    return s_.chooseLight(u);
-  }
-  std::optional<LightChoice> chooseLight(const Receiver& r, Real u) const noexcept override {
-    return s_.chooseLight(r, u);
-  }
-  Real lightChance(int light, const Receiver& r) const noexcept override {
-    return s_.lightChance(light, r);
-  }
-  std::span<const int> infiniteLights() const noexcept override { return s_.infiniteLights(); }
-  bool usesFootprints() const noexcept override { return s_.usesFootprints(); }
-  bool usesFootprint(const Surface& s) const noexcept override { return s_.usesFootprint(s); }
-  Vec2 texels(const Surface& s) const noexcept override { return s_.texels(s); }
-  Bounds bounds() const noexcept override { return s_.bounds(); }
-  Vec3 middle() const noexcept override { return s_.middle(); }
-  std::span<const Patch> patches() const noexcept override { return s_.patches(); }
-  SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept override {
-    return s_.patchPoint(patch, uv);
-  }
-  Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept override {
-    return s_.patchArea(patch, low, high);
-  }
+  Bounds bounds() const noexcept override { return tracer_.bounds(); }
 
  private:
-  const SceneView& s_;
+  const Tracer& tracer_;
   std::vector<Query>& queries_;
 };
 
 /// The rays of the first samples of all pixels, tile by tile.
 std::vector<Query> raysOf(Scene& scene, int samples) {
   std::vector<Query> queries;
-  const Recorder recorder(scene.view(), queries);
+  const SceneView& view = scene.view();
+  const Recorder recorder(view.tracer, queries);
+  const SceneView recorded{recorder, view.materials, view.lightSet, view.patchSet, view.middle};
   const int width = scene.film().width, height = scene.film().height;
   Counters counters;
   const auto sample = [&](int x, int y, int i) {
@@ -107,7 +75,7 @@ std::vector<Query> raysOf(Scene& scene, int samples) {
         {(Real(x) + u.x) / w, (Real(y) + u.y) / h}, sampler.pair(dimension::kLens), w / h};
     const auto start = scene.camera().sample(numbers);
     if (!start) return;
-    PathContext context{.scene = recorder,
+    PathContext context{.scene = recorded,
                         .sampler = sampler,
                         .ray = {start->origin, start->direction, 0, kInfinity, 0, RayKind::camera},
                         .jacobian = scene.camera().sampleDerivatives(numbers),

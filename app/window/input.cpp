@@ -290,7 +290,7 @@ void Window::focusAt(double x, double y) {
   keepForUndo();
   // The direction of view stays; what lies across it comes to the distance of the point.
   const Vec3 forward = normalize(view->lookAt - view->location);
-  const Vec3 point = hit.position + snapshot_->open->scene().view().middle();
+  const Vec3 point = hit.position + snapshot_->open->scene().view().middle;
   const Real depth = dot(point - view->location, forward);
   if (!(depth > 0)) return;
   Block next = withView(*block, cameraSchema(),

@@ -99,7 +99,7 @@ void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& co
       .aovs = &aovs,
       .wantsFootprint = job.wantsFootprint};
   const Rgb radiance = start->ray.weight * job.integrator.estimate(context);
-  if (aovs.depth > 0) aovs.position += job.scene.middle();
+  if (aovs.depth > 0) aovs.position += job.scene.middle;
   job.film.add(x, y, radiance, aovs, counters);
 }
 

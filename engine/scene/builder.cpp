@@ -98,7 +98,7 @@ bool SceneBuilder::build() {
   impl_.hash = description_.hash;
   impl_.textures->setBudget(options_.textureMemory);
   for (const Block& block : description_.blocks) prepareShapes(block);
-  impl_.origin = findMiddle();
+  impl_.view.middle = findMiddle();
   for (const Block& block : description_.blocks) addTop(block);
   addCamera();
   addIntegrator();
@@ -267,7 +267,7 @@ std::shared_ptr<Interface> SceneBuilder::tryOut(const Block& block) const {
                                      why);
 }
 
-Affine SceneBuilder::traced(const Affine& toWorld) const { return around(impl_.origin, toWorld); }
+Affine SceneBuilder::traced(const Affine& toWorld) const { return around(impl_.view.middle, toWorld); }
 
 RayKind SceneBuilder::visibility(const Block& block, RayKind outer) {
   static const std::map<std::string, RayKind> words = {{"camera", RayKind::camera},

@@ -51,7 +51,7 @@ Real Scene::Impl::lightPdf(const Surface& s, const Receiver& r) const noexcept {
 
 Scene::Scene() : impl_(std::make_unique<Impl>()) {}
 Scene::~Scene() = default;
-const SceneView& Scene::view() const noexcept { return *impl_; }
+const SceneView& Scene::view() const noexcept { return impl_->view; }
 const Camera& Scene::camera() const noexcept { return *impl_->camera; }
 Integrator& Scene::integrator() noexcept { return *impl_->integrator; }
 const std::string& Scene::integratorName() const noexcept { return impl_->integratorName; }

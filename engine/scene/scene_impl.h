@@ -12,7 +12,8 @@
 
 namespace vestige {
 
-struct Scene::Impl final : SceneView {
+struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
+  SceneView view{*this, *this, *this, *this};
   std::shared_ptr<TextureStore> textures = std::make_shared<TextureStore>();
   World world;
   std::vector<Material> materials;
@@ -30,18 +31,15 @@ struct Scene::Impl final : SceneView {
   FilmSettings film;
   std::uint64_t hash = 0;
   bool hasTextures = false;
-  Vec3 origin;             ///< SceneView::middle()
   bool hasOneView = true;  ///< shadow rays meet what indirect rays meet
 
   /// After everything was added: builds the tree, see World::commit(), and the table of lights.
   void commit(const std::shared_ptr<const World::Body>& before);
 
-  using SceneView::intersect;
   bool intersect(const Ray& ray, Surface& surface) const noexcept override {
     return world.intersect(ray, surface);
   }
   Rgb transmittance(const Ray& ray) const noexcept override;
-  using SceneView::shade;
   void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint, InputBuffer& buffer,
              Interaction& result) const noexcept override {
     interact(material(surface), surface, toPrev, footprint, buffer, result);
@@ -65,7 +63,6 @@ struct Scene::Impl final : SceneView {
   bool usesFootprint(const Surface& s) const noexcept override { return material(s).usesFootprint; }
   Vec2 texels(const Surface& s) const noexcept override { return material(s).texels(); }
   Bounds bounds() const noexcept override { return world.bounds(); }
-  Vec3 middle() const noexcept override { return origin; }
   std::span<const Patch> patches() const noexcept override { return world.patches(); }
   SurfacePoint patchPoint(int patch, Vec2 uv) const noexcept override {
     return world.patchPoint(patch, uv);

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a surface on: rays that leave it, and its BRDF in world space with all corrections.
+//
+// [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
+#pragma once
+#include <vestige/scene_view.h>
+
+namespace vestige {
+
+/// A ray that leaves a surface, started off it on the side it goes to, so that rounding cannot hit
+/// the same surface again.
+inline Ray spawnRay(const Surface& s, Vec3 direction, RayKind kind = RayKind::any) noexcept {
+  const Real side = dot(direction, s.geometricNormal) < 0 ? Real(-1) : Real(1);
+  return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity, s.time, kind};
+}
+/// From a surface to a point of a light. Both ends move off their surfaces, and the ray runs
+/// between the moved points: so neither surface hides the other, however flat the ray meets them.
+inline Ray shadowRay(const Surface& s, const LightHit& light) noexcept {
+  const Ray r = spawnRay(s, light.toLight);
+  if (!std::isfinite(light.distance)) return r;
+  const Real off = light.offset + kRayError * (light.distance + maxAbsComponent(light.position));
+  // A point without a surface moves back along the ray.
+  const Real cosine = dot(light.normal, light.toLight);
+  const Vec3 away = cosine < 0 ? light.normal : cosine > 0 ? -light.normal : -light.toLight;
+  const Vec3 way = light.position + off * away - r.origin;
+  const Real distance = length(way);
+  if (!(distance > 0)) return {r.origin, light.toLight, 0, 0};
+  return {r.origin, way / distance, 0, distance * (1 - kRayError)};
+}
+/// From a surface to a distance at which there is no light, as for ambient occlusion: the ray ends
+/// a little before it.
+inline Ray shadowRay(const Surface& s, Vec3 direction, Real distance) noexcept {
+  Ray r = spawnRay(s, direction);
+  if (std::isfinite(distance)) r.tMax = distance - 2 * s.offset - distance * Real(1e-5);
+  return r;
+}
+
+/// The kind of a scattered ray: `indirect` just if a light is drawn against it.
+inline RayKind kindOf(const ScatterSample& s) noexcept {
+  if (!s.specular) return RayKind::indirect;
+  return s.toNext.z < 0 ? RayKind::refraction : RayKind::reflection;
+}
+
+inline bool isOpaque(Rgb opacity) noexcept {
+  return opacity.r >= 1 && opacity.g >= 1 && opacity.b >= 1;
+}
+
+/// Which quantity a path carries away from the sensor or the light: radiance is scaled by
+/// etaScale(), flux bends with the shading normal [Vea97 5.2, 5.3].
+enum class Carries { radiance, flux };
+
+/// The point of a surface as lights see it.
+inline Receiver receiverAt(const Surface& s, const Interaction& x, Real time = 0,
+                           int medium = -1) noexcept {
+  return {s.position, x.frame.n, time, medium};
+}
+
+/// One drawn continuation of a path, in world space.
+struct Scatter {
+  Vec3 toNext;
+  Rgb weight;  ///< f cos / pdf with all corrections
+  ScatterSample local;
+};
+
+/// Correction for shading normals on particle paths, 1 on eye paths [Vea97 Eq. 5.19].
+inline Real shadingCorrection(const Interaction& x, Vec3 toNext, Carries what) noexcept {
+  if (what == Carries::radiance) return 1;
+  const Real in = std::abs(dot(x.toPrev, x.frame.n) * dot(toNext, x.geometricNormal));
+  const Real out = std::abs(dot(x.toPrev, x.geometricNormal) * dot(toNext, x.frame.n));
+  return out > 0 ? std::min(in / out, Real(100)) : 0;  // grazing: bounded, not refused
+}
+
+/// Whether the geometric and the shading normal agree on which side toNext lies.
+inline bool sidesAgree(const Interaction& x, Vec3 toNext, Real localZ) noexcept {
+  return dot(toNext, x.geometricNormal) * localZ > 0;
+}
+
+/// Of what crosses an interface; flux is not scaled, nor what stays on its side.
+inline Real etaScale(const Interaction& x, Vec3 local, Carries what) noexcept {
+  return what == Carries::radiance && local.z < 0 ? x.brdf->etaScale(x.point, local) : Real(1);
+}
+
+/// f |cos| towards a world direction, with all corrections, and the density of drawScatter() there.
+/// Zero where the BRDF or the geometry says no.
+inline ScatterValue evaluateScatter(const Interaction& x, Vec3 toNext,
+                                    Carries what = Carries::radiance) noexcept {
+  if (!x.brdf) return {};
+  const Vec3 local = x.frame.toLocal(toNext);
+  if (!sidesAgree(x, toNext, local.z)) return {};
+  ScatterValue v = x.brdf->evaluate(x.point, local);
+  v.fCos = etaScale(x, local, what) * shadingCorrection(x, toNext, what) * v.fCos;
+  return v;
+}
+
+/// Draws a continuation; nullopt where the path is absorbed.
+inline std::optional<Scatter> drawScatter(const Interaction& x, ScatterNumbers numbers,
+                                          Carries what = Carries::radiance) noexcept {
+  if (!x.brdf) return std::nullopt;
+  const std::optional<ScatterSample> s = x.brdf->sample(x.point, numbers);
+  if (!s) return std::nullopt;
+  const Vec3 toNext = normalize(x.frame.toWorld(s->toNext));
+  if (!sidesAgree(x, toNext, s->toNext.z)) return std::nullopt;
+  const Real eta = etaScale(x, s->toNext, what);
+  return Scatter{toNext, eta * shadingCorrection(x, toNext, what) * s->weight, *s};
+}
+
+}  // namespace vestige
