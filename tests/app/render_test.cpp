@@ -180,6 +180,30 @@ TEST_CASE("clamp cuts indirect light down, and says so", "[app]") {
   CHECK(mean("direct", "direct_cut").at("rmse") == 0);  // direct light is left alone
 }
 
+TEST_CASE("AOVs that are cut are reported", "[app]") {
+  const Folder folder;
+  // A plane has no extent, so that nothing but the camera says how large the scene is.
+  const auto cut = [&](const std::string& distance, const std::string& words) {
+    const std::string scene =
+        folder.write("far.scene",
+                     "camera pinhole { location <0, 0, 0>  look_at <0, 0, 1>  angle 10 }\n"
+                     "film { resolution <8, 8> }\nintegrator path { samples 2 }\n"
+                     "light environment { radiance rgb 1 }\n"
+                     "plane { <0, 0, -1>, -" +
+                         distance + "  brdf lambert { diffuse rgb 0.5 } }\n");
+    const Run r = runVestige(
+        {scene, "-o", folder / "a.exr", "--aov", "depth,normal", "--stats", folder / "s.json"});
+    INFO(r.err);
+    REQUIRE(r.exit == 0);
+    CHECK((r.err.find(words) != std::string::npos));
+    CHECK((r.err.find("AOV") != std::string::npos) == !words.empty());
+    std::ifstream in(folder / "s.json");
+    return json::parse(in).at("cut_aovs").get<long>();
+  };
+  CHECK(cut("1000", "") == 0);
+  CHECK(cut("1e7", "128 samples of AOV 'depth' were not finite or beyond 1.05e+06") == 128);
+}
+
 TEST_CASE("progress as JSON is one object a line and ends with what was written", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());
