@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures that another renderer has made of the same scenes: refs/SOURCES.md says which and how.
 // The fast cases have tolerances of about five standard deviations of their own noise.
+#include "engine/picture/compare.h"
 #include "images/picture.h"
 
 using namespace vestige;
