@@ -60,8 +60,7 @@ const std::string kLamp =
 TEST_CASE("any number of clear layers changes nothing", "[images][visibility]") {
   for (const int n : {63, 64, 200}) {
     INFO(n << " layers");
-    for (const char* integrator : {"path { }"})
-      checkColour(renderText(before(layers(n, "0"), integrator), kFew), grey(1), 1e-6);
+    checkColour(renderText(before(layers(n, "0")), kFew), grey(1), 1e-6);
     checkColour(renderText(litThrough(layers(n, "0")), kFew), grey(1), 1e-4);
   }
 }
@@ -73,6 +72,16 @@ TEST_CASE("a thousand coloured layers dim light by their powers", "[images][visi
   // Paths decide at each layer. Spread of one sample is below 1: 4 sigma of 256 x 64 samples.
   checkColour(renderText(before(layers(1000, colour)), "--width 8 --height 8 --spp 256"), expected,
               0.03);
+}
+
+TEST_CASE("all integrators see colours through layers", "[images][visibility]") {
+  for (const char* integrator :
+       {"path { }", "distributed { split 1 }", "particle { particles 1000 }"}) {
+    INFO(integrator);
+    const Rgb expected{Real(std::pow(0.99, 40)), Real(std::pow(0.98, 40)), 1};
+    checkColour(renderText(before(layers(40, "rgb <0.01, 0.02, 0>"), integrator), kMany), expected,
+                0.02);
+  }
 }
 
 TEST_CASE("panes of one primary colour leave it whole", "[images][visibility]") {
