@@ -116,6 +116,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
   path.chance(choice->chance);
 
   Ray ray = start(*particle, size);
+  ray.kind = RayKind::indirect;
   Surface s;
   InputBuffer inputs;
   Interaction x;
@@ -144,7 +145,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
       }
       if (!passage.stays) {
         if (++layer == kMaxLayers) return add(booking.absorbed, carried);
-        ray = spawnRay(s, ray.direction);
+        ray = spawnRay(s, ray.direction, ray.kind);
         continue;
       }
     }
@@ -168,7 +169,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
     carried = grown;
     path.scatter(s, x, *drawn, numbers);
     path.chance(survival);
-    ray = spawnRay(s, drawn->toNext);
+    ray = spawnRay(s, drawn->toNext, kindOf(drawn->local));
     ++bounce;
   }
 }
