@@ -382,7 +382,11 @@ void SceneBuilder::addEmission(Placement& p, const Value& emission, bool bothSid
   // What is cut away does not shine, and of a thin veil only its share.
   const Material& material = impl_.materials[std::size_t(impl_.objectMaterial[p.object])];
   if (material.isTranslucent) {
-    mean = material.cut(Inputs(material.constants.data()).rgb(material.opacity)) * mean;
+    // A textured opacity has its mean there, which a cutoff would make all or nothing.
+    const Rgb opacity = Inputs(material.constants.data()).rgb(material.opacity);
+    const bool isEven = std::none_of(material.textured.begin(), material.textured.end(),
+                                     [&](const auto& t) { return t.input == material.opacity; });
+    mean = (isEven ? material.cut(opacity) : opacity) * mean;
     radiance = [material, whole = std::move(radiance)](const SurfacePoint& at) {
       return material.opacityAt(at) * whole(at);
     };

@@ -207,6 +207,10 @@ TEST_CASE("a second build reads and builds only what has changed", "[cache]") {
     s.blocks[kBall].children.edit()[0].settings.push_back({"opacity", numberValue(0.5), {}});
     check(reloads.use(s), 0, 0, false);
   }
+  SECTION("which rays meet a shape") {
+    s.blocks[kBall].settings.push_back({"no_shadow", numberValue(1), {}});
+    check(reloads.use(s), 0, 0, false);
+  }
   SECTION("a picture") {
     files.writePicture(10);
     check(reloads.use(s), 0, 1, true);

@@ -139,6 +139,29 @@ TEST_CASE("what cannot be built is said in one sentence", "[scene]") {
                                            {"emission", colourValue(1, 1, 1)}}));
   CHECK_THAT(onlyError(shiningPlane), containsText("cannot shine"));
 
+  const auto with = [](Block block) {
+    SceneDesc s = test::room(0.5, "path");
+    s.blocks.push_back(std::move(block));
+    return s;
+  };
+  CHECK_THAT(onlyError(with(makeBlock("shape", "sphere",
+                                      {{"centre", vectorValue({0, 0, 0})},
+                                       {"radius", numberValue(1)},
+                                       {"visible_to", textValue("camera shadows")}}))),
+             containsText("found 'shadows'"));
+  CHECK_THAT(onlyError(with(makeBlock("light", "point",
+                                      {{"location", vectorValue({0, 0, 0})},
+                                       {"intensity", colourValue(1, 1, 1)},
+                                       {"no_image", numberValue(1)}}))),
+             containsText("has no surface"));
+  CHECK_THAT(onlyError(with(makeBlock("light", "area",
+                                      {{"corner", vectorValue({0, 0, 0})},
+                                       {"edge1", vectorValue({1, 0, 0})},
+                                       {"edge2", vectorValue({0, 1, 0})},
+                                       {"radiance", colourValue(1, 1, 1)},
+                                       {"visible_to", textValue("camera")}}))),
+             containsText("must be visible to indirect rays"));
+
   SceneDesc missing = test::room(0.5, "path");
   Block brdf = makeBlock("brdf", "lambert");
   Value image;

@@ -60,8 +60,7 @@ const std::string kLamp =
 TEST_CASE("any number of clear layers changes nothing", "[images][visibility]") {
   for (const int n : {63, 64, 200}) {
     INFO(n << " layers");
-    for (const char* integrator : {"path { }"})
-      checkColour(renderText(before(layers(n, "0"), integrator), kFew), grey(1), 1e-6);
+    checkColour(renderText(before(layers(n, "0")), kFew), grey(1), 1e-6);
     checkColour(renderText(litThrough(layers(n, "0")), kFew), grey(1), 1e-4);
   }
 }
@@ -70,9 +69,19 @@ TEST_CASE("a thousand coloured layers dim light by their powers", "[images][visi
   const std::string colour = "rgb <0.001, 0.0005, 0>";
   const Rgb expected{Real(std::pow(1 - 0.001, 1000)), Real(std::pow(1 - 0.0005, 1000)), 1};
   checkColour(renderText(litThrough(layers(1000, colour)), kFew), expected, 1e-4);
-  // Paths decide at each layer. Spread of one sample is below 1: 4 sigma of 256 x 64 samples.
-  checkColour(renderText(before(layers(1000, colour)), "--width 8 --height 8 --spp 256"), expected,
-              0.03);
+  // Paths decide at each layer: 4 sigma of 4096 samples.
+  checkColour(renderText(before(layers(1000, colour)), "--width 8 --height 8 --spp 64"), expected,
+              0.08);
+}
+
+TEST_CASE("all integrators see colours through layers", "[images][visibility]") {
+  for (const char* integrator :
+       {"path { }", "distributed { split 1 }", "particle { particles 1000 }"}) {
+    INFO(integrator);
+    const Rgb expected{Real(std::pow(0.99, 40)), Real(std::pow(0.98, 40)), 1};
+    checkColour(renderText(before(layers(40, "rgb <0.01, 0.02, 0>"), integrator), kMany), expected,
+                0.02);
+  }
 }
 
 TEST_CASE("panes of one primary colour leave it whole", "[images][visibility]") {
@@ -151,6 +160,40 @@ TEST_CASE("a lamp is hidden from some rays and lights all the same", "[images][v
     CHECK(lit(visibility) == Approx(share).epsilon(0.01));
   }
   CHECK(lit("visible_to \"camera shadow reflection refraction\"") == 0);
+}
+
+TEST_CASE("a light area is hidden from the camera and lights all the same",
+          "[images][visibility]") {
+  const auto lamp = [](const std::string& visibility) {
+    return "light area { <-1, 1, -1>, 2*x, 2*z radiance 1 two_sided true " + visibility + " }\n";
+  };
+  const auto lit = [&](const std::string& visibility) {
+    return mean(renderText(floor(lamp(visibility), ""), kMany), 0);
+  };
+  CHECK(lit("") == Approx(squareAbove(1)).epsilon(0.01));
+  CHECK(lit("no_image") == Approx(squareAbove(1)).epsilon(0.01));
+  const auto seen = [&](const std::string& visibility) {
+    return mean(renderText("camera orthographic { location <0, 3, 0> look_at 0 sky z width 1 }\n"
+                           "integrator path { }\n" +
+                               lamp(visibility),
+                           kFew),
+                0);
+  };
+  CHECK(seen("") == Approx(1));
+  CHECK(seen("no_image") == 0);
+}
+
+TEST_CASE("emission is masked by a picture of opacity", "[images][visibility]") {
+  // Stripes of opacity 0.4 and 0.2, cut at 0.3: half of the square shines.
+  const std::string text =
+      "camera orthographic { location <0, 0, -5> look_at 0 width 1 }\n"
+      "quad { <-1, -1, 0>, 2*x, 2*y brdf lambert { diffuse 0 opacity pigment stripes { rgb 0.2, "
+      "rgb "
+      "0.4 direction 8*x width 0.5 } opacity_cutoff 0.3 } emission 2 emission_sides \"both\" }\n";
+  for (const char* integrator : {"path", "particle"}) {
+    INFO(integrator);
+    checkColour(renderText(text, kMany + " --integrator " + integrator), grey(1), 0.02);
+  }
 }
 
 TEST_CASE("camera, mirror and glass see what is visible to them", "[images][visibility]") {

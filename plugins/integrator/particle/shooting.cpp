@@ -117,6 +117,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
   path.chance(choice->chance);
 
   Ray ray = start(*particle, size);
+  ray.kind = RayKind::indirect;
   Surface s;
   InputBuffer inputs;
   Interaction x;
@@ -170,7 +171,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
     carried = grown;
     path.scatter(s, x, *drawn, random);
     path.chance(survival);
-    ray = spawnRay(s, drawn->toNext);
+    ray = spawnRay(s, drawn->toNext, kindOf(drawn->local));
     ++bounce;
   }
 }
