@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vestige/path_walk.h>
 
-#include "support/text_scene.h"
+#include "support/catch.h"
+#include "support/scenes.h"
 
 using namespace vestige;
 using namespace vestige::test;
 
 TEST_CASE("a walk that meets layers without end says so", "[engine]") {
-  std::string text = "camera pinhole { location <0, 0, -1> look_at <0, 0, 0> }\n";
+  SceneDesc description = room(0, "path");
+  description.blocks.resize(3);  // without the room
+  const Block clear = makeBlock("brdf", "lambert", {{"opacity", numberValue(0)}});
   for (int z = 0; z < 10; ++z)
-    text += "quad { <-1, -1, " + std::to_string(z) +
-            ">, <2, 0, 0>, <0, 2, 0> brdf lambert { diffuse rgb 0 opacity 0 } }\n";
-  const auto scene = sceneOf(text + "light environment { radiance rgb 1 }\n");
+    description.blocks.push_back(quad({-1, -1, Real(z)}, {2, 0, 0}, {0, 2, 0}, {clear}));
+  description.blocks.push_back(
+      makeBlock("light", "environment", {{"radiance", colourValue(1, 1, 1)}}));
+  Diagnostics diagnostics;
+  const auto scene = buildScene(description, registry(), {}, diagnostics);
+  REQUIRE(scene);
   Counters counters;
   PathContext c{.scene = scene->view(),
                 .sampler = Sampler(0, 0, 0, 1),
