@@ -2,7 +2,7 @@
 // Values that are lists, maps and functions; blocks that hold blocks of their own kind.
 #include "support/catch.h"
 
-#include <vestige/inputs.h>
+#include <vestige/plugin.h>
 
 #include <cmath>
 
@@ -267,13 +267,41 @@ TEST_CASE("pigments hold pigments", "[lang]") {
   CHECK(tiles.find("second")->block->plugin == "tiles");
 }
 
+TEST_CASE("a plugin's constructor blames an entry of a list", "[lang]") {
+  struct NoFiles final : Host {
+    std::string find(const std::string&, Span, std::string&) override { return ""; }
+    std::shared_ptr<const Texture> texture(const TextureRequest&, std::string&) override {
+      return nullptr;
+    }
+    void warn(Span, const std::string&) override {}
+  };
+  struct Refuses {
+    explicit Refuses(const Values& v) {
+      if (v.real(0, 1) < v.real(0, 0)) throw PluginError(0, 1, "it falls");
+      throw PluginError(0, "all of it");
+    }
+  };
+  NoFiles host;
+  const auto refused = [&](double first, double second) {
+    const std::vector<Value> rows = {listValue({numberValue(first), numberValue(second)})};
+    const Values values(rows, {});
+    VestigeError error{"", -7, -7};
+    CHECK(!vestige::detail::create<Refuses, Refuses>(&values, static_cast<Host*>(&host), &error));
+    CHECK(error.input == 0);
+    return error.entry;
+  };
+  CHECK(refused(2, 1) == 1);
+  CHECK(refused(1, 2) == -1);
+}
+
 // ---------------------------------------------------------------- sharing
 TEST_CASE("copies of a block share what they do not change", "[lang]") {
   const SceneDesc s = scene(
       "#declare S = sphere { 0, 1 brdf lambert { diffuse rgb 0.5 } };"
       "#declare M = mesh { \"a very long name of a file, which no short string holds.ply\" };"
       "object { S } object { S } object { S translate x } object { S radius 2 }"
-      "object { M } object { M brdf phong { } scale 2 } object { M file \"b.ply\" }");
+      "object { M } object { M brdf phong { } scale 2 } object { M file \"b.ply\" }"
+      "#declare N = \"c.ply\"; mesh { N } mesh { N }");
   const auto& b = s.blocks;
   CHECK(b[0].settings.sharesWith(b[1].settings));
   CHECK(b[0].children.sharesWith(b[1].children));
@@ -285,6 +313,7 @@ TEST_CASE("copies of a block share what they do not change", "[lang]") {
   CHECK(b[3].find("radius")->v[0] == 2);
   CHECK(b[0].find("radius")->v[0] == 1);
   CHECK(&b[4].find("file")->text.str() == &b[5].find("file")->text.str());
+  CHECK(&b[7].find("file")->text.str() == &b[8].find("file")->text.str());
   CHECK(b[6].find("file")->text == "b.ply");
   CHECK(b[4].find("file")->text != "b.ply");
 }
