@@ -36,6 +36,7 @@ class SceneBuilder {
   /// Creates the shapes of a block, which addShape() then places: where the scene stands must be
   /// known before anything is placed.
   void prepareShapes(const Block& block);
+  void report(const Diagnostics& held);
   Vec3 findMiddle();
   template <class Interface>
   std::shared_ptr<Interface> tryOut(const Block& block) const;
@@ -76,7 +77,11 @@ class SceneBuilder {
   SceneHost host_;
   Span place_;  ///< of the shape being placed
   std::map<std::string, BuildCache::KeptShape> shapes_;
-  std::map<const Block*, std::shared_ptr<const Shape>> prepared_;  ///< null: was refused
+  struct Prepared {
+    std::shared_ptr<const Shape> shape;  ///< null: refused
+    Diagnostics said;                    ///< while it was created
+  };
+  std::map<const Block*, Prepared> prepared_;
   BuildCache::Use use_;
 };
 
