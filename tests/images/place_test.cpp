@@ -213,12 +213,12 @@ TEST_CASE("each light and shining shape is the same wherever its scene stands", 
     for (int s = 0; s < kShapes; ++s) {
       INFO("light " << l << ", shape " << s);
       checkEverywhere(
-          [&](const Move& p) { return cameraText(p) + lightText(l, p) + roomText(dull(s), p); },
-          256, allMoves());
+          [&](const Move& p) { return cameraText(p) + lightText(l, p) + roomText(dull(s), p); }, 64,
+          allMoves());
     }
   for (int s = 0; s < kShapes; ++s) {
     INFO("shining shape " << s);
-    checkEverywhere([&](const Move& p) { return cameraText(p) + roomText(shining(s), p); }, 256,
+    checkEverywhere([&](const Move& p) { return cameraText(p) + roomText(shining(s), p); }, 64,
                     allMoves());
   }
 }
