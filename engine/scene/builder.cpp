@@ -225,8 +225,20 @@ void SceneBuilder::prepareShapes(const Block& block) {
     for (const Block& part : block.children) prepareShapes(part);
   if (block.kind != "shape") return;
   place_ = block.span;
-  const bool isSound = isInvertible(block.world, block.span);
-  prepared_[&block] = isSound ? shapeFor(block) : nullptr;
+  Prepared& made = prepared_[&block];
+  std::swap(diagnostics_, made.said);
+  if (isInvertible(block.world, block.span)) made.shape = shapeFor(block);
+  std::swap(diagnostics_, made.said);
+}
+
+/// Messages that were held back, at their place in the order of the text.
+void SceneBuilder::report(const Diagnostics& held) {
+  for (const Diagnostic& d : held.list()) {
+    Diagnostic& said = d.severity == Severity::error     ? diagnostics_.error(d.span, d.message)
+                       : d.severity == Severity::warning ? diagnostics_.warning(d.span, d.message)
+                                                         : diagnostics_.note(d.span, d.message);
+    said.notes = d.notes;
+  }
 }
 
 // ---------------------------------------------------------------- the space it is traced in
@@ -236,8 +248,8 @@ Vec3 SceneBuilder::findMiddle() {
   const auto add = [&](const Bounds& b) {
     if (!b.isInfinite()) extent.add(b);
   };
-  for (const auto& [block, shape] : prepared_)
-    if (shape) add(boundsIn(*shape, block->world));
+  for (const auto& [block, made] : prepared_)
+    if (made.shape) add(boundsIn(*made.shape, block->world));
   if (!extent.isEmpty()) return middleOf(extent);
   for (const Block& block : description_.blocks)
     if (block.kind == "light")
@@ -308,7 +320,9 @@ void SceneBuilder::addShape(const Block& block, const Block* outerBrdf, RayKind 
       if (part.kind == "shape" || part.kind == "union") addShape(part, brdf, visibleTo);
     return;
   }
-  const std::shared_ptr<const Shape> shape = prepared_.at(&block);
+  const Prepared& made = prepared_.at(&block);
+  report(made.said);
+  const std::shared_ptr<const Shape>& shape = made.shape;
   if (!shape) return;
   if (shape->parts()) return addMeshParts(block, shape, brdf, visibleTo);
   Placement p;

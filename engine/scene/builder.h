@@ -36,6 +36,7 @@ class SceneBuilder {
   /// Creates the shapes of a block, which addShape() then places: where the scene stands must be
   /// known before anything is placed.
   void prepareShapes(const Block& block);
+  void report(const Diagnostics& held);
   Vec3 findMiddle();
   template <class Interface>
   std::shared_ptr<Interface> tryOut(const Block& block) const;
@@ -91,7 +92,11 @@ class SceneBuilder {
   std::vector<InputRow> inputs_;  ///< of the material being made
   int firstInput_ = -1;           ///< of the BRDF being created; -1: no material is being made
   std::map<std::string, BuildCache::KeptShape> shapes_;
-  std::map<const Block*, std::shared_ptr<const Shape>> prepared_;  ///< null: was refused
+  struct Prepared {
+    std::shared_ptr<const Shape> shape;  ///< null: refused
+    Diagnostics said;                    ///< while it was created
+  };
+  std::map<const Block*, Prepared> prepared_;
   BuildCache::Use use_;
 };
 

@@ -28,7 +28,11 @@ class Sphere final : public Shape {
                            .in("scene units")
                            .doc("from the middle to the surface")}};
   }
-  explicit Sphere(const Values& v) : c_(v.vec3(kCentre)), r_(v.real(kRadius)) {}
+  explicit Sphere(const Values& v)
+      : c_(v.vec3(kCentre)),
+        r_(v.real(kRadius)),
+        onIt_(1e-6 + 4 * double(std::numeric_limits<Real>::epsilon()) *
+                         double(maxAbsComponent(c_) / r_)) {}
 
   Bounds bounds() const noexcept override {
     const Vec3 r{r_, r_, r_};
@@ -126,7 +130,7 @@ class Sphere final : public Shape {
   Cone cone(Vec3 from) const noexcept {
     const V way = V(c_) - V(from);
     const double d2 = dot(way, way), d = std::sqrt(d2), s2 = double(r_) * r_ / d2;
-    if (!(s2 < 1 - 1e-6)) return {{}, d, 0};  // on it or inside
+    if (!(s2 < 1 - onIt_)) return {{}, d, 0};  // on it or inside
     return {(1 / d) * way, d, s2 / (1 + std::sqrt(1 - s2))};
   }
 
@@ -172,6 +176,8 @@ class Sphere final : public Shape {
 
   Vec3 c_;
   Real r_;
+  /// 1 - (radius / distance)^2 of an eye that may lie on the sphere, as coordinates are rounded.
+  double onIt_;
 };
 
 }  // namespace
