@@ -114,7 +114,7 @@ void judgeByKind(const Plugin& plugin, const Effort& effort, Judgement& j) {
   TriedRows rows;
   const auto untried = [&] {
     std::string names = rowsLeftAlone(*plugin.schema);
-    if (const std::string refused = rows.refused(); !refused.empty())
+    if (const std::string refused = rows.refused(*plugin.schema); !refused.empty())
       names += (names.empty() ? "" : ", ") + refused;
     return leftAlone(plugin, names);
   };

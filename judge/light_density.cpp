@@ -14,20 +14,21 @@ double densityTowards(const Light& light, const Receiver& from, Vec3 d) {
 /// would miss the sharp edges of a polygon.
 std::vector<double> overSurface(const Light& light, const Receiver& from,
                                 const SpherePartition& cells) {
-  constexpr int kFine = 400;
   std::vector<double> sums(cells.cells(), 0);
   const TriangleMesh& mesh = *light.geometry();
+  // As many points in all, however many triangles.
+  const int fine = std::max(16, int(400 / std::sqrt(double(mesh.triangles.size()) / 2)));
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]] - a, c = mesh.positions[t[2]] - a;
     const Vec3 across = cross(b, c), normal = normalize(across);
-    for (int i = 0; i < kFine * kFine; ++i) {
-      Real x = (i % kFine + Real(0.5)) / kFine, y = (i / kFine + Real(0.5)) / kFine;
+    for (int i = 0; i < fine * fine; ++i) {
+      Real x = (i % fine + Real(0.5)) / fine, y = (i / fine + Real(0.5)) / fine;
       if (x + y > 1) x = 1 - x, y = 1 - y;  // each half of the parallelogram once
       const Vec3 p = a + x * b + y * c, d = normalize(p - from.position);
       const LightHit hit = {from.position, d, length(p - from.position), p, normal, {x, y}};
       sums[cells.cellOf(d)] += double(light.pdf(from, hit) * std::abs(dot(normal, d)) /
                                       sqr(hit.distance) * length(across) / 2) /
-                               (kFine * kFine);
+                               (fine * fine);
     }
   }
   return sums;

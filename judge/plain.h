@@ -26,11 +26,16 @@ class TriedRows {
   void accept(const Settings& s) {
     for (const auto& [name, value] : s) taken_[name] = true;
   }
-  /// Rows whose values were always refused, "file (every value was refused), ..."; "": none.
-  std::string refused() const {
+  /// Files and blocks whose values were always refused, "file (every value was refused), ..."; "":
+  /// none. (Other rows are refused for what stands beside them.)
+  std::string refused(const Schema& schema) const {
     std::string names;
-    for (const auto& [name, isTaken] : taken_)
-      if (!isTaken) names += (names.empty() ? "" : ", ") + name + " (every value was refused)";
+    for (const Parameter& row : schema.params) {
+      const bool isOffered = row.type == ValueType::file || row.type == ValueType::block;
+      const auto found = taken_.find(row.name);
+      if (isOffered && found != taken_.end() && !found->second)
+        names += (names.empty() ? "" : ", ") + row.name + " (every value was refused)";
+    }
     return names;
   }
 

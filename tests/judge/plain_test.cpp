@@ -67,7 +67,7 @@ TEST_CASE("judge: differences say nothing on a bend", "[judge]") {
 TEST_CASE("judge: differences say nothing about a table with fine knots", "[judge]") {
   // Slopes 1.02 and 0.98 in turn, 1 over any of the wide steps.
   const auto table = [](double h) {
-    const double knot = 1e-3, x = h / knot + 0.3, n = std::floor(x), share = x - n;
+    const double knot = 2e-4, x = h / knot + 0.3, n = std::floor(x), share = x - n;
     const bool isSteep = std::fmod(std::abs(n), 2) < 0.5;
     return std::optional(Real(knot * (n + share + 0.02 * (isSteep ? share : 1 - share))));
   };
@@ -97,5 +97,12 @@ TEST_CASE("judge: rows whose values were all refused are told", "[judge]") {
   rows.offer({{"file", textValue("a")}, {"angle", numberValue(1)}});
   rows.offer({{"angle", numberValue(2)}});
   rows.accept({{"angle", numberValue(2)}});
-  CHECK(rows.refused() == "file (every value was refused)");
+  rows.offer({{"other", textValue("b")}});
+  Schema schema;
+  for (const char* name : {"file", "other", "angle"}) {
+    schema.params.emplace_back().name = name;
+    schema.params.back().type = ValueType::file;
+  }
+  schema.params[1].type = ValueType::real;
+  CHECK(rows.refused(schema) == "file (every value was refused)");
 }
