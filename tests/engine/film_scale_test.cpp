@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/image/image.h"
+#include "engine/picture/image.h"
 #include "engine/render/adaptive.h"
 #include "engine/render/session.h"
 #include "support/catch.h"

@@ -124,7 +124,7 @@ TEST_CASE("lights at infinity and finite ones get half of the choices each", "[l
   for (int i = 0; i < 3; ++i) lamps.add({{Real(i), 0, 0}, 1, {0, 1, 0}, Real(0.5)});
   lamps.add({{}, Real(1e6)}).isAtInfinity = true;
   lamps.build();
-  const auto chance = [&](int light, Vec3 at) { return double(lamps.tree.chance(light, at)); };
+  const auto chance = [&](int light, Vec3 at) { return double(lamps.tree.chance(light, Receiver{at})); };
   // By power among themselves, a tenth of it evenly.
   const double above = 0.9 * 0.75 + 0.1 * 0.5;
   const Vec3 lit{1, 50, 0}, dark{1, -50, 0};
@@ -144,13 +144,13 @@ TEST_CASE("lights at infinity and finite ones get half of the choices each", "[l
   black.add({{}, 0}).isAtInfinity = true;
   black.add({{0, 0, 0}, 1});
   black.build();
-  CHECK(double(black.tree.chance(0, lit)) == Approx(0.05).epsilon(1e-5));
-  CHECK(double(black.tree.chance(1, lit)) == Approx(0.95).epsilon(1e-5));
+  CHECK(double(black.tree.chance(0, Receiver{lit})) == Approx(0.05).epsilon(1e-5));
+  CHECK(double(black.tree.chance(1, Receiver{lit})) == Approx(0.95).epsilon(1e-5));
   Lamps unlit;
   unlit.add({{}, 5}).isAtInfinity = true;
   unlit.add({{0, 0, 0}, 0});
   unlit.build();
-  CHECK(double(unlit.tree.chance(0, lit)) == Approx(0.95).epsilon(1e-5));
+  CHECK(double(unlit.tree.chance(0, Receiver{lit})) == Approx(0.95).epsilon(1e-5));
 }
 
 TEST_CASE("draws have the frequencies that chances say", "[lights]") {

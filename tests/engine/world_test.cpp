@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/light/shape_light.h"
 #include "engine/trace/world.h"
 
 #include <vestige/sampling.h>

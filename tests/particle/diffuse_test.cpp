@@ -96,7 +96,7 @@ TEST_CASE("what looks black wherever it is looked at is left to rays", "[particl
   REQUIRE(scene->view().intersect({{Real(0.625), Real(1.225), 1}, {0, 0, 1}, 0, kInfinity}, s));
   InputBuffer inputs;
   const Interaction x = scene->view().shade(s, {0, 0, -1}, {}, inputs);
-  REQUIRE(x.brdf->matt(x.point).albedo.r > 0.5);
+  REQUIRE(x.brdf->diffuse(x.point).albedo.r > 0.5);
   REQUIRE_FALSE(Hierarchy(scene->view(), HierarchySettings{}).keeps(patchPointOf(s, {0, 0, -1})));
   for (const char* settings : {"", "show \"gather\"", "glossy off"})
     checkAgainstPaths(std::string("a white speck ") + settings, text, settings);
