@@ -124,7 +124,9 @@ TEST_CASE("lights at infinity and finite ones get half of the choices each", "[l
   for (int i = 0; i < 3; ++i) lamps.add({{Real(i), 0, 0}, 1, {0, 1, 0}, Real(0.5)});
   lamps.add({{}, Real(1e6)}).isAtInfinity = true;
   lamps.build();
-  const auto chance = [&](int light, Vec3 at) { return double(lamps.tree.chance(light, Receiver{at})); };
+  const auto chance = [&](int light, Vec3 at) {
+    return double(lamps.tree.chance(light, Receiver{at}));
+  };
   // By power among themselves, a tenth of it evenly.
   const double above = 0.9 * 0.75 + 0.1 * 0.5;
   const Vec3 lit{1, 50, 0}, dark{1, -50, 0};
@@ -135,7 +137,7 @@ TEST_CASE("lights at infinity and finite ones get half of the choices each", "[l
   CHECK(chance(0, dark) == Approx(above).epsilon(1e-5));
   CHECK(chance(4, dark) == Approx(1 - above).epsilon(1e-5));
   for (const int lamp : {1, 2, 3}) CHECK(chance(lamp, dark) == 0);
-  const auto last = lamps.tree.choose(dark, kOneMinusEpsilon);
+  const auto last = lamps.tree.choose({dark}, kOneMinusEpsilon);
   REQUIRE(last);
   CHECK(last->light == 4);
 
@@ -166,14 +168,14 @@ TEST_CASE("draws have the frequencies that chances say", "[lights]") {
       constexpr int kDraws = 50000;
       std::vector<int> drawn(lamps.list.size() + 1);  // the last: none
       for (int i = 0; i < kDraws; ++i) {
-        const auto choice = lamps.tree.choose(at, r.number());
+        const auto choice = lamps.tree.choose({at}, r.number());
         ++drawn[choice ? std::size_t(choice->light) : lamps.list.size()];
       }
       double sum = 0, statistic = 0;
       int freedoms = -1;
       for (std::size_t l = 0; l < drawn.size(); ++l) {
         const bool isNone = l == lamps.list.size();
-        const double chance = isNone ? 1 - sum : double(lamps.tree.chance(int(l), at));
+        const double chance = isNone ? 1 - sum : double(lamps.tree.chance(int(l), {at}));
         sum += chance;
         if (chance < 1e-6) {
           CHECK(drawn[l] == 0);
