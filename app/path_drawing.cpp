@@ -2,7 +2,7 @@
 #include "app/path_drawing.h"
 
 #include <fmt/format.h>
-#include <vestige/path_report.h>
+#include <vestige/tools/path_report.h>
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #include "app/path_text.h"
 
 #include <fmt/format.h>
-#include <vestige/path_report.h>
+#include <vestige/tools/path_report.h>
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,7 @@
 //
 //     footprint_cost [PLUGIN_FOLDER]
 #include <vestige/footprint.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include <time.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A camera's rays through one point of its lens against pdf().
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include "judge/camera_tests.h"
 #include "judge/statistics.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One flux in three ways: the mean of emit(), power(), and what sample() brings to a sphere that
 // every particle has to cross.
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include "judge/light_sphere.h"
 

@@ -4,7 +4,7 @@
 #pragma once
 #include <vestige/host.h>
 #include <vestige/inputs.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include <algorithm>
 #include <map>

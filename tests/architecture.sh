@@ -23,6 +23,11 @@ includes() {
 }
 
 includes engine/sdk "$std|$sdk"
+# Contracts need no tool. Dual numbers and differences stand in for an author's derivatives: they may.
+for header in engine/sdk/vestige/*.h; do
+  case ${header##*/} in *dual*.h | *_differences.h | cosine_brdf.h | area_light.h | delta_light.h) continue ;; esac
+  includes "$header" "$std|<vestige/(footprint/)?[a-z_0-9]+\.h>"
+done
 includes engine/trace "$std|$system|$sdk|\"engine/trace/|<embree[34]/"
 includes engine/files "$std|$system|\"engine/files/|<fmt/|<OpenImageIO/hash\.h>"
 includes engine/colour "$std|\"engine/colour/|<fmt/|<OpenColorIO/"

@@ -6,7 +6,7 @@
 #include "engine/trace/place.h"
 #include "engine/trace/triangles.h"
 
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 namespace vestige {
 namespace {

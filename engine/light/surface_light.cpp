@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/light/surface_light.h"
 
-#include <vestige/differences.h>
 #include <vestige/footprint/differentials.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/differences.h>
+#include <vestige/tools/sampling.h>
 
 namespace vestige {
 

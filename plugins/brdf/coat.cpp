@@ -11,8 +11,8 @@
 //
 // [Wal07] Walter et al. Microfacet models for refraction through rough surfaces. EGSR 2007. Eq. 20
 #include <vestige/brdf.h>
-#include <vestige/microfacet.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/microfacet.h>
 
 namespace vestige {
 namespace {

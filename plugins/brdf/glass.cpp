@@ -2,8 +2,8 @@
 // The smooth surface of a clear solid of index `ior`: reflects by Fresnel's law, refracts the rest.
 // Where both indices are the same it is not there.
 #include <vestige/brdf.h>
-#include <vestige/fresnel.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/fresnel.h>
 
 namespace vestige {
 namespace {

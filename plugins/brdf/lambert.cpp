@@ -4,7 +4,7 @@
 //     f(prev, next) = diffuse / pi
 #include <vestige/brdf.h>
 #include <vestige/plugin.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 namespace vestige {
 namespace {

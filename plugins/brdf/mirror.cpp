@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A perfect mirror, from either side.
 #include <vestige/brdf.h>
-#include <vestige/fresnel.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/fresnel.h>
 
 namespace vestige {
 namespace {

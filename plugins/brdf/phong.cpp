@@ -15,9 +15,9 @@
 //         rendering. Report CW 197, K.U.Leuven, 1994.                              the model
 // [PD01]  Suykens, Willems. Path differentials and applications. EGWR 2001. Fig. 2  the derivative
 #include <vestige/brdf.h>
-#include <vestige/fresnel.h>
 #include <vestige/plugin.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/fresnel.h>
+#include <vestige/tools/sampling.h>
 
 namespace vestige {
 namespace {

@@ -20,8 +20,8 @@
 // [AS00]  Ashikhmin, Shirley. An anisotropic Phong BRDF model. JGT 5(2), 2000.
 // [Wal07] Walter et al. Microfacet models for refraction through rough surfaces. EGSR 2007.
 #include <vestige/brdf.h>
-#include <vestige/microfacet.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/microfacet.h>
 
 namespace vestige {
 namespace {

@@ -12,8 +12,8 @@
 // [Wal07] Walter et al. Microfacet models for refraction through rough surfaces. EGSR 2007. Eq. 20,
 //         21 (there for radiance from next to prev: the same function, since n_next is its n_o)
 #include <vestige/brdf.h>
-#include <vestige/microfacet.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/microfacet.h>
 
 namespace vestige {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parallel projection: rays start on a rectangle across the view, so nothing behind `location` is
 // seen and size does not depend on distance.
-#include <vestige/view_frame.h>
+#include <vestige/tools/view_frame.h>
 
 namespace vestige {
 namespace {

@@ -2,7 +2,7 @@
 // Everything around, as a latitude-longitude picture: look_at is in the middle, the sky along the
 // upper edge, longitude grows to the right. Twice as wide as high shows it undistorted; the picture
 // looks as light environment takes its images, turned by nothing if the view is along +z.
-#include <vestige/view_frame.h>
+#include <vestige/tools/view_frame.h>
 
 namespace vestige {
 namespace {

@@ -4,7 +4,7 @@
 //     d = forward + tan(angle/2) ((2x - 1) right + (1 - 2y)/aspect up)        [MATH 1.1]
 //
 // MATH is docs/mathematics.md, here and in the other cameras.
-#include <vestige/view_frame.h>
+#include <vestige/tools/view_frame.h>
 
 namespace vestige {
 namespace {

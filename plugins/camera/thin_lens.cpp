@@ -5,8 +5,8 @@
 // distance of the plane of focus along the view; the ray to it starts anywhere on the lens
 // [MATH 1.2]. The lens is an event of its own: forget its two variables and textures blur exactly
 // where the picture is sharp.
-#include <vestige/sampling.h>
-#include <vestige/view_frame.h>
+#include <vestige/tools/sampling.h>
+#include <vestige/tools/view_frame.h>
 
 namespace vestige {
 namespace {

@@ -5,8 +5,8 @@
 // [CPC84] Cook, Porter, Carpenter. Distributed ray tracing. SIGGRAPH 1984.
 // [PD01]  Suykens, Willems. Path differentials and applications. EGWR 2001.
 #include <vestige/footprint/language.h>
-#include <vestige/path_walk.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/path_walk.h>
 
 #include <optional>
 #include <utility>

@@ -7,8 +7,8 @@
 // [Kaj86] Kajiya. The rendering equation. SIGGRAPH 1986.
 // [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
 #include <vestige/footprint/language.h>
-#include <vestige/path_walk.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/path_walk.h>
 
 #include <optional>
 #include <utility>

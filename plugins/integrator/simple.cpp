@@ -2,10 +2,10 @@
 // Path tracing (Kajiya, The rendering equation, SIGGRAPH 1986) in its shortest form, to read first.
 // Estimates the same radiance as `path`: at each vertex the emission that the ray met and the
 // direct light, both weighted by multiple importance sampling (direct_light.h).
-#include <vestige/direct_light.h>
-#include <vestige/layers.h>
 #include <vestige/plugin.h>
-#include <vestige/roulette.h>
+#include <vestige/tools/direct_light.h>
+#include <vestige/tools/layers.h>
+#include <vestige/tools/roulette.h>
 
 namespace vestige::simple_plugin {
 

@@ -6,8 +6,8 @@
 // lights.
 #include <vestige/light.h>
 #include <vestige/plugin.h>
-#include <vestige/sampling.h>
-#include <vestige/words.h>
+#include <vestige/tools/sampling.h>
+#include <vestige/tools/words.h>
 
 namespace vestige {
 namespace {

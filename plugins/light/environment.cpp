@@ -9,10 +9,10 @@
 // lookup averages to over the texel, times the sine of the polar angle [MATH 1.13]: 1 6 1 over 8
 // along either axis. So a dark texel beside a bright one, lit by interpolation, is drawn too, and
 // the density is 0 only where the radiance is. One radiance is drawn uniformly.
-#include <vestige/grid_distribution.h>
 #include <vestige/light.h>
 #include <vestige/plugin.h>
-#include <vestige/scene_disk.h>
+#include <vestige/tools/grid_distribution.h>
+#include <vestige/tools/scene_disk.h>
 
 namespace vestige {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bands across z, stirred by turbulence of their own.
-#include <vestige/pattern_noise.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/pattern_noise.h>
 
 namespace vestige {
 

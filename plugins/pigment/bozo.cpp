@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Soft random blobs of one size.
-#include <vestige/pattern_noise.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/pattern_noise.h>
 
 namespace vestige {
 

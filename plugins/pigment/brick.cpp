@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bricks in a running bond.
-#include <vestige/pattern_filter.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/pattern_filter.h>
 
 namespace vestige {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two colours in cells of 1: cubes in space, or squares in uv.
-#include <vestige/pattern_filter.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/pattern_filter.h>
 
 namespace vestige {
 

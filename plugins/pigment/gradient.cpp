@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From one colour to another along a direction, again and again.
-#include <vestige/pattern_filter.h>
 #include <vestige/plugin.h>
+#include <vestige/tools/pattern_filter.h>
 
 namespace vestige {
 

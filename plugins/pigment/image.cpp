@@ -2,7 +2,7 @@
 // A picture from a file.
 #include <vestige/pigment.h>
 #include <vestige/plugin.h>
-#include <vestige/texture_box.h>
+#include <vestige/tools/texture_box.h>
 
 namespace vestige {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A flat ring or full disc: a shape of its own and the lids of cylinders and cones.
 #pragma once
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include "exact.h"
 

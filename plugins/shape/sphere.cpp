@@ -3,7 +3,7 @@
 //
 // [MATH] docs/mathematics.md 1.11: derivatives of the cone sampler
 #include <vestige/plugin.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include "exact.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vestige/path_walk.h>
+#include <vestige/tools/path_walk.h>
 
 #include "support/catch.h"
 #include "support/scenes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include "engine/light/shape_light.h"
 #include "engine/trace/world.h"

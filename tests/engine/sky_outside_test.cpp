@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lamp in a room, and a bright sky outside of its window: how noisy is the direct light?
-#include <vestige/direct_light.h>
+#include <vestige/tools/direct_light.h>
 
 #include <cstdio>
 

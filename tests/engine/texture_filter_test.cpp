@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lookups with a footprint, against the average of point lookups that are worked out the long way.
-#include <vestige/texture_box.h>
+#include <vestige/tools/texture_box.h>
 
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/light/shape_light.h"
 #include "engine/trace/world.h"
+#include "engine/light/shape_light.h"
 
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include "engine/trace/embree.h"
 #include "support/catch.h"

@@ -2,7 +2,7 @@
 // A library that loads, and whose density is half of what it should be: for `vestige plugin test`.
 #include <vestige/brdf.h>
 #include <vestige/plugin.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 namespace vestige {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which random numbers the branches of a path draw, and the layers between its vertices.
-#include <vestige/branching.h>
-#include <vestige/layers.h>
+#include <vestige/tools/branching.h>
+#include <vestige/tools/layers.h>
 
 #include <set>
 #include <utility>

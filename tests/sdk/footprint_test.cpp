@@ -5,7 +5,7 @@
 #include <vestige/footprint/footprints.h>
 #include <vestige/footprint/reduce.h>
 #include <vestige/sampler.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <vestige/sampler.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include <vector>
 

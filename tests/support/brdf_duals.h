@@ -7,8 +7,8 @@
 // derivatives, not roundings.
 #pragma once
 #include <vestige/dual_brdf.h>
-#include <vestige/fresnel.h>
-#include <vestige/microfacet.h>
+#include <vestige/tools/fresnel.h>
+#include <vestige/tools/microfacet.h>
 
 #include "support/forwarding_brdf.h"
 

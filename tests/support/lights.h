@@ -3,7 +3,7 @@
 #pragma once
 #include <vestige/camera.h>
 #include <vestige/light.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 #include <functional>
 #include <optional>

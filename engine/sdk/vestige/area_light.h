@@ -12,9 +12,9 @@
 //       Rgb radiance(Vec2 at, Vec3 d) const noexcept override;
 //     };
 #pragma once
-#include <vestige/aim.h>
+#include <vestige/tools/aim.h>
 #include <vestige/light.h>
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 namespace vestige {
 

@@ -8,7 +8,7 @@
 // every neighbour is carried back along the shortest turn of its axis.
 #pragma once
 #include <vestige/brdf.h>
-#include <vestige/differences.h>
+#include <vestige/tools/differences.h>
 
 namespace vestige::differences {
 

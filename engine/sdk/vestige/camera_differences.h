@@ -3,7 +3,7 @@
 // notes once that a scene uses such a plugin.
 #pragma once
 #include <vestige/camera.h>
-#include <vestige/differences.h>
+#include <vestige/tools/differences.h>
 
 namespace vestige::differences {
 

@@ -8,10 +8,10 @@
 //       Rgb intensity(Vec3 d) const noexcept override;  // W/sr, in the light's own frame
 //     };
 #pragma once
-#include <vestige/aim.h>
+#include <vestige/tools/aim.h>
 #include <vestige/light.h>
-#include <vestige/sampling.h>
-#include <vestige/scene_disk.h>
+#include <vestige/tools/sampling.h>
+#include <vestige/tools/scene_disk.h>
 
 namespace vestige {
 

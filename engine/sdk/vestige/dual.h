@@ -4,10 +4,10 @@
 // and logGradient() from DualBrdf (dual_brdf.h).
 //
 // Four are enough in the local frame: two tangents of toPrev and two of u (or of toNext).
-// Rules for templated code: branch on value(x); no acos or atan2 (poles: see sampling.h); build
-// frames with frameAround(), which transports them without spin.
+// Rules for templated code: branch on value(x); no acos or atan2 (poles: see tools/sampling.h);
+// build frames with frameAround(), which transports them without spin.
 #pragma once
-#include <vestige/sampling.h>
+#include <vestige/tools/sampling.h>
 
 namespace vestige {
 
@@ -137,7 +137,7 @@ inline TVec2<Dual> concentricDisk(const TVec2<Dual>& u) noexcept {
           {k.d.y, u.x.d * k.du[0].y + u.y.d * k.du[1].y}};
 }
 
-/// The other maps of sampling.h, with their own derivatives.
+/// The other maps of tools/sampling.h, with their own derivatives.
 inline TVec3<Dual> mapped(const Direction& k, const TVec2<Dual>& u) noexcept {
   const auto component = [&](Real v, Real byX, Real byY) {
     return Dual(v, u.x.d * byX + u.y.d * byY);

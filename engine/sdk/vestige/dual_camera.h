@@ -10,7 +10,7 @@
 //     };
 #pragma once
 #include <vestige/dual.h>
-#include <vestige/view_frame.h>
+#include <vestige/tools/view_frame.h>
 
 namespace vestige {
 

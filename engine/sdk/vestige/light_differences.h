@@ -2,8 +2,8 @@
 // The derivatives of a light that does not write its own: differences of its sample() and emit().
 // The engine notes once that a scene uses such a plugin.
 #pragma once
-#include <vestige/differences.h>
 #include <vestige/light.h>
+#include <vestige/tools/differences.h>
 
 namespace vestige::differences {
 

@@ -22,7 +22,7 @@ namespace vestige {
 struct Footprint {
   Vec3 dP[2];               ///< scene units, in the tangent plane
   Vec2 dUv[2];              ///< the same two vectors as changes of uv
-  bool alongMajor = false;  ///< pictures are to be looked up as PD01 does (texture_box.h)
+  bool alongMajor = false;  ///< pictures are to be looked up as PD01 does (tools/texture_box.h)
   bool isPoint() const noexcept {
     return lengthSquared(dP[0]) + lengthSquared(dP[1]) == 0 &&
            dot(dUv[0], dUv[0]) + dot(dUv[1], dUv[1]) == 0;

@@ -7,8 +7,8 @@
 // n = forward turned by `tilt` downwards and by `swing` to the right: the point for direction d is
 // eye + k d with k = reach / (n . d), reach = n . (focal_point - eye). That changes with the film:
 // dk = -k (n . dd) / (n . d).
-#include <vestige/sampling.h>
-#include <vestige/view_frame.h>
+#include <vestige/tools/sampling.h>
+#include <vestige/tools/view_frame.h>
 
 namespace vestige {
 namespace {

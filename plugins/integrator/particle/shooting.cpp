@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shooting.h"
 
-#include <vestige/layers.h>
+#include <vestige/tools/layers.h>
 
 #include <exception>
 #include <thread>

@@ -2,7 +2,7 @@
 // The picture of a solution: paths from the eye that end on diffuse surfaces, whose irradiance the
 // solution has, and scatter everywhere else.
 #pragma once
-#include <vestige/path_walk.h>
+#include <vestige/tools/path_walk.h>
 
 #include "irradiance.h"
 
