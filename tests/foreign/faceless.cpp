@@ -31,7 +31,7 @@ class Faceless final : public Shape {
     const bool isInside = p.x >= 0 && p.x <= size_ && p.z >= 0 && p.z <= size_;
     return isInside ? std::optional(ShapeHit{Real(t)}) : std::nullopt;
   }
-  SurfacePoint surface(Vec3 near, int) const noexcept override {
+  SurfacePoint surface(Vec3 near, const ShapeHit&) const noexcept override {
     SurfacePoint s{};
     s.position = {near.x, corner_.y, near.z};
     s.geometricNormal = {0, 1, 0};
