@@ -44,7 +44,7 @@ std::string versionText() {
                           FMT_VERSION % 100, CLI11_VERSION));
   row("compiler", compilerText());
   row("Real", sizeof(Real) == sizeof(double) ? "double" : "float");
-  row("plugin ABI", kAbiTag);
+  row("plugin ABI", fmt::format("SDK {}.{}, {}", kSdkMajor, kSdkMinor, kAbiTag));
   row("plugins", pluginText());
   return text;
 }
