@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light that writes its sampling routine and its factor once and has all derivatives for nothing.
+// Base class of lights that write their sampling routine and factor once, as templates, and inherit
+// all derivatives.
 //
 //     class Ball final : public DualLight<Ball> {
 //      public:
@@ -12,7 +13,7 @@
 //       ...                  // and sample(), pdf(), eval(), emit(), power() as in light.h
 //     };
 //
-// A light that sends no particles leaves particle() and emit() away.
+// A light that emits no particles omits particle() and emit().
 #pragma once
 #include <vestige/dual.h>
 #include <vestige/light.h>

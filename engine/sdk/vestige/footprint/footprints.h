@@ -10,7 +10,8 @@
 
 namespace vestige {
 
-/// Two vectors that stand for all, full length: axes of an ellipse, or sides of a parallelogram.
+/// Two vectors that represent all differential vectors, full length: axes of an ellipse, or sides
+/// of a parallelogram.
 struct Region {
   Vec2 a, b;
 };
