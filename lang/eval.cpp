@@ -9,8 +9,7 @@
 namespace vestige::lang {
 namespace {
 
-/// Levels of evaluation for each level of nesting that the limits allow: an expression in
-/// parentheses passes some of them.
+/// Levels of evaluation for each level of nesting: an expression in parentheses takes several.
 constexpr int kLevelsPerNesting = 4;
 
 /// IEC 61966-2-1, also below zero, where it is continued as an odd function.
@@ -147,7 +146,7 @@ Datum Evaluator::vector(const Expr& e, Arguments a) {
   return isWhole ? Datum(r) : Datum();
 }
 
-// rgb keeps what a longer operand says about filter and transmit; `color 0.4` fills all five.
+// rgb keeps filter and transmit of a longer operand; `color 0.4` sets all five.
 Datum Evaluator::colour(const Expr& e, Arguments a) {
   const Datum d = evaluate(*e.args[0], a);
   const Numbers* n = wantNumbers(d, *e.args[0], "'" + e.word + "'");
