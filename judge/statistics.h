@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Is a sampler's density the one it claims? Pearson's chi-square test over the sphere, with bins
-// that find narrow lobes by themselves.
+// Tests whether samples have a given density: Pearson's chi-square test over the sphere, with
+// adaptive bins for narrow lobes.
 //
 // [PTVF07] Press et al. Numerical recipes, 3rd ed. 2007. 6.2 (incomplete gamma), 14.3 (chi-square)
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a call of a method takes.
+// Time of a call of a method.
 #pragma once
 #include <vestige/math.h>
 

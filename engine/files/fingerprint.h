@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names for contents.
+// Hashes of contents, used as names.
 #pragma once
 #include <cstddef>
 #include <string>

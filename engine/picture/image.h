@@ -24,8 +24,8 @@ struct Image {
   std::size_t offset(int x, int y) const { return (std::size_t(y) * width + x) * channels.size(); }
 };
 
-/// Any format that OpenImageIO reads, without colour conversion; nullopt-like: empty() width and
-/// `error`.
+/// Reads any format that OpenImageIO supports, without colour conversion; on failure the width is 0
+/// and `error` is set.
 Image readImage(const std::string& file, std::string& error);
 
 struct WriteOptions {

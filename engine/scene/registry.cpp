@@ -38,7 +38,7 @@ std::string noteOnDifferences(const Plugin& plugin) {
                      plugin.kind, plugin.name, missing);
 }
 
-/// What is known of the folders so far; grows as libraries are opened.
+/// The plugins known so far; grows as libraries are opened.
 class Registry::Catalogue {
  public:
   Catalogue();
@@ -49,8 +49,8 @@ class Registry::Catalogue {
   void openKind(const std::string& kind);
   void openAll();
 
-  /// Files that promise a plugin, unopened, in the order of their folders. They came later than
-  /// what `plugins` has under the same name.
+  /// Unopened files whose names announce a plugin, in the order of their folders. They have
+  /// precedence over a plugin of the same name in `plugins`.
   std::map<PluginName, std::vector<std::string>> waiting;
   std::map<PluginName, Plugin> plugins;
   std::map<PluginName, Schema> schemas;  ///< of plugins and of blocks that are none

@@ -19,10 +19,10 @@ struct Encoding {
   std::shared_ptr<const ColourTransform> transform;  ///< of Kind::config: mixes channels
 };
 
-/// What `colourSpace` asks for, or the file's metadata if it is "": integers are sRGB unless the
-/// file says linear or another exponent, floating point is linear. (The name that a converted .tx
-/// file carries is still that of its source, so it is not believed for floating point.)
-/// False with `error`.
+/// The decoding for `colourSpace`, or by the file's metadata if it is "": integers are sRGB unless
+/// the file says linear or another exponent, floating point is linear. (The name that a converted
+/// .tx file carries is still that of its source, so it is ignored for floating point.) False with
+/// `error`.
 bool chooseEncoding(const OIIO::ImageSpec& spec, const std::string& colourSpace, Encoding& encoding,
                     std::string& error);
 

@@ -19,7 +19,7 @@ namespace vestige {
 
 class PageCache {
  public:
-  /// Less would throw tiles away that the next lookup wants again.
+  /// With less memory, tiles would be evicted before the next lookup needs them.
   static constexpr std::size_t kLeastBytes = std::size_t(32) << 20;
 
   PageCache();
@@ -32,7 +32,7 @@ class PageCache {
   std::size_t limit() const noexcept { return limit_; }
   std::size_t bytesUsed() const;
   OIIO::ImageCache& library() const noexcept { return *cache_; }
-  /// What the library keeps for the thread that asks [any thread].
+  /// The library's data for the calling thread [any thread].
   OIIO::ImageCache::Perthread* thread() const {
     // By number: a later cache may lie at the same address.
     thread_local std::uint64_t known = 0;

@@ -237,8 +237,8 @@ std::size_t bytesFor(const TexelPlan& p) {
          pyramidNumbers(pyramidLevels(p.width, p.height, p.channels), p.channels) * level;
 }
 
-/// What the encoding does, in words, and where a transform of the colour config does it, in what it
-/// makes of a grid of colours: a config may change behind its name.
+/// A description of the encoding. For a transform of the colour config it includes the results for
+/// a grid of colours, because a config may change under the same name.
 std::string keyOf(const Encoding& e) {
   std::string key = fmt::format("{} {}", int(e.kind), e.exponent);
   if (e.kind != Encoding::Kind::config) return key;

@@ -31,7 +31,7 @@ class Lambert final : public Brdf {
     return ScatterSample::only(toNext, p.inputs.rgb(kDiffuse), toNext.z / kPi);
   }
 
-  /// The direction depends on the normal alone.
+  /// The direction does not depend on toPrev.
   ScatterJacobian sampleDerivatives(const ScatterPoint&, ScatterNumbers n) const noexcept override {
     return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
   }

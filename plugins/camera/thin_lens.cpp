@@ -3,8 +3,8 @@
 //
 // A film point is seen sharply at `focus` = eye + f d, with d as in camera pinhole and f the
 // distance of the plane of focus along the view; the ray to it starts anywhere on the lens
-// [MATH 1.2]. The lens is an event of its own: forget its two variables and textures blur exactly
-// where the picture is sharp.
+// [MATH 1.2]. The lens adds two random numbers: without their derivatives, textures would blur
+// exactly where the picture is sharp.
 #include <vestige/tools/sampling.h>
 #include <vestige/tools/view_frame.h>
 
