@@ -17,7 +17,7 @@ class SurfaceLight : public Light {
       : radiance_(std::move(radiance)), mean_(meanRadiance), twoSided_(twoSided) {}
 
   LightTraits traits() const noexcept final { return {.isDrawn = isDrawn_}; }
-  /// Emits for camera rays only: next-event estimation and particles ignore it.
+  /// Excludes the light from next-event estimation and from the emission of particles.
   void hide() noexcept { isDrawn_ = false; }
   std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override;
   Real pdf(const Receiver& r, const LightHit& hit) const noexcept override;
@@ -36,7 +36,7 @@ class SurfaceLight : public Light {
   virtual Real areaPdf(Vec3 normal) const noexcept = 0;
   /// World area.
   virtual Real area() const noexcept = 0;
-  /// Flux of one side.
+  /// The extent of the light as if it emitted from one side only.
   virtual LightExtent oneSided() const noexcept = 0;
 
   bool shinesTo(Vec3 normal, Vec3 toLight) const noexcept {

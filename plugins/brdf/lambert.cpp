@@ -16,7 +16,7 @@ class Lambert final : public Brdf {
   static Schema schema() {
     return {.kind = "brdf",
             .name = "lambert",
-            .summary = "matt: the same radiance in every direction",
+            .summary = "diffuse: the same radiance in every direction",
             .inputs = {rgb("diffuse", 0.5).range(0, 1).doc("reflected fraction")}};
   }
 
