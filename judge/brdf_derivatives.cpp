@@ -54,7 +54,7 @@ Finding areaIsInverseDensity(const BrdfCases& cases, const Effort& effort) {
 }
 
 Finding duIsTheDerivative(const BrdfCases& cases, const Effort& effort) {
-  Finding f{"du is the derivative of sample() by its numbers", "sampleDerivatives().du"};
+  Finding f{"du is the derivative of sample() by its random numbers", "sampleDerivatives().du"};
   const auto judge = [&](const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Random& r) {
     const auto s = c.brdf->sample(p, n);
     if (!s || s->specular || !differsSmoothly(n.u, Real(0.03))) return;

@@ -39,7 +39,7 @@ Finding lightAreaIsInverseDensity(const LightCases& cases, const Effort& effort)
 }
 
 Finding lightDuIsTheDerivative(const LightCases& cases, const Effort& effort) {
-  Finding f{"du is the derivative of sample() by its numbers", "sampleDerivatives().du"};
+  Finding f{"du is the derivative of sample() by its random numbers", "sampleDerivatives().du"};
   forLightEvents(cases, effort, [&](const LightCase& c, const Receiver& from, Vec2 u, Random&) {
     if (!c.light->sample(from, u) || !isSmoothAt(u)) return;
     const LightJacobian j = c.light->sampleDerivatives(from, u);
