@@ -18,7 +18,9 @@ class Lamp final : public Light {
       : location_(location), axis_(axis), watts_(watts), reach_(reach) {}
 
   LightTraits traits() const noexcept override {
-    return {.isDelta = isWanted, .isDrawn = isWanted};  // a delta light is always drawn
+    return {.isDelta = isWanted,
+            .isInfinite = isAtInfinity,
+            .isDrawn = isWanted};  // a delta light is always drawn
   }
   std::optional<LightSample> sample(const Receiver&, Vec2) const noexcept override {
     return std::nullopt;
@@ -29,7 +31,6 @@ class Lamp final : public Light {
     if (isAnywhere || isAtInfinity) return {};
     return {{location_, location_}, axis_, 0, reach_};
   }
-  bool isInfinite() const noexcept override { return isAtInfinity; }
   Rgb power() const noexcept override { return grey(watts_); }
 
   /// Across the way to it.

@@ -47,17 +47,17 @@ TEST_CASE("the middle of a scene is a point of a coarse grid, or zero", "[scene]
 }
 
 TEST_CASE("scenes are traced around their middle", "[scene]") {
-  CHECK(sceneOf(boxText(0))->view().middle() == Vec3{});
-  CHECK(sceneOf(boxText(20))->view().middle() == Vec3{});
+  CHECK(sceneOf(boxText(0))->view().middle == Vec3{});
+  CHECK(sceneOf(boxText(20))->view().middle == Vec3{});
   const auto far = sceneOf(boxText(5000));
-  const Vec3 middle = far->view().middle();
+  const Vec3 middle = far->view().middle;
   CHECK(maxAbsComponent(middle - Vec3{5000, 5000, 5000}) <= 1);
   CHECK(maxAbsComponent(far->view().bounds().low) <= 1);
   // Nothing bounded: lamps and the camera say where the scene stands.
   const auto endless = sceneOf(
       "camera pinhole { location <9000, 1, 0> look_at <9000, 0, 1> }\n"
       "light point { <9002, 1, 0> }\nplane { y, 0 }\n");
-  CHECK(std::abs(endless->view().middle().x - 9001) <= 2);
+  CHECK(std::abs(endless->view().middle.x - 9001) <= 2);
 }
 
 TEST_CASE("positions that people see are those of the scene's author", "[scene]") {

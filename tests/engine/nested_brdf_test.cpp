@@ -37,7 +37,7 @@ double furnace(Block brdf) {
               test::quad({-5, -5, 0}, {0, 10, 0}, {10, 0, 0}, {std::move(brdf)})};
   Diagnostics diagnostics;
   auto scene = buildScene(s, test::registry(), {}, diagnostics);
-  for (const Diagnostic& d : diagnostics.all()) UNSCOPED_INFO(d.message);
+  for (const Diagnostic& d : diagnostics.list()) UNSCOPED_INFO(d.message);
   REQUIRE(scene);
   Film film = makeFilm(*scene, 0, 0, nullptr, {});
   render(*scene, film, {.samples = 256, .threads = 2});
@@ -53,7 +53,7 @@ std::string refusal(Block brdf) {
   Diagnostics diagnostics;
   CHECK_FALSE(buildScene(s, test::registry(), {}, diagnostics));
   std::string text;
-  for (const Diagnostic& d : diagnostics.all()) text += d.message + '\n';
+  for (const Diagnostic& d : diagnostics.list()) text += d.message + '\n';
   return text;
 }
 
@@ -74,7 +74,8 @@ TEST_CASE("a mixture reflects the mean of its parts", "[brdf][nested]") {
 TEST_CASE("inputs of a BRDF inside another may be textured", "[brdf][nested]") {
   Block checker = makeBlock("pigment", "checker",
                             {{"first", colourValue(1, 1, 1)}, {"second", colourValue(0, 0, 0)}});
-  checker.own = checker.world = Affine::scale({0.05, 0.05, 0.05});
+  for (int i = 0; i < 3; ++i) checker.own.m[i][i] = 0.05;
+  checker.world = checker.own;
   const Block textured = makeBlock("brdf", "lambert", {{"diffuse", holding(checker)}});
   CHECK(furnace(mixOf(test::lambert(0.2), textured, 0.5)) == Approx(0.35).margin(2e-2));
 }

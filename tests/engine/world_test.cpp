@@ -177,10 +177,10 @@ TEST_CASE("a lamp does not shadow itself, however flat its light falls", "[world
         const auto s = world.intersect({at, {0, -1, 0}, 0, kInfinity});
         if (!s) continue;
         const Real u = Real(random.between(0, 1)), v = Real(random.between(0, 1));
-        const auto sample = light->sample(s->position, {u, v});
+        const auto sample = light->sample({s->position}, {u, v});
         if (!sample || sample->hit.toLight.y <= 0) continue;
         ++drawn;
-        dark += world.transmittance(shadowRay(*s, sample->hit), half, nullptr) < 1;
+        dark += world.transmittance(shadowRay(*s, sample->hit), half, nullptr).r < 1;
       }
       INFO("lamp " << lamp[0].shape.get() << ", " << lamp.size() << " of them, " << far << " away");
       CHECK(drawn > 1000);

@@ -31,7 +31,7 @@ class Faceless final : public Shape {
     const bool isInside = p.x >= 0 && p.x <= size_ && p.z >= 0 && p.z <= size_;
     return isInside ? std::optional(ShapeHit{Real(t)}) : std::nullopt;
   }
-  SurfacePoint surface(Vec3 near, int) const noexcept override {
+  SurfacePoint surface(Vec3 near, const ShapeHit&) const noexcept override {
     SurfacePoint s{};
     s.position = {near.x, corner_.y, near.z};
     s.geometricNormal = {0, 1, 0};
@@ -44,7 +44,7 @@ class Faceless final : public Shape {
   bool isClosed() const noexcept override { return false; }
   Real area() const noexcept override { return size_ * size_; }
   AreaSample samplePoint(Vec2 u) const noexcept override {
-    const SurfacePoint s = surface(corner_ + Vec3{size_ * u.x, 0, size_ * u.y}, 0);
+    const SurfacePoint s = surface(corner_ + Vec3{size_ * u.x, 0, size_ * u.y}, {});
     return {.point = s, .du = {s.dPdu, s.dPdv}, .dNdu = {}, .pdf = 1 / area()};
   }
 

@@ -42,7 +42,7 @@ class TableLamp final : public PointSource {
   }
 
  private:
-  static constexpr Real kKnots = 40;  ///< a unit of cosine
+  static constexpr Real kKnots = 200;  ///< a unit of cosine
   static Real place(Vec3 d) { return (d.z + 1) * kKnots; }
   static Real value(Real n) { return Real(1.1) + std::sin(8 * (n / kKnots - 1)); }
   Real factor_;

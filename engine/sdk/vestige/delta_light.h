@@ -97,7 +97,8 @@ class PointSource : public DeltaLight {
     constexpr int n = 64;
     Rgb sum;
     for (int i = 0; i < n * n; ++i)
-      sum += intensity(uniformCap({(i % n + Real(0.5)) / n, (i / n + Real(0.5)) / n}, cosReach_).d);
+      sum += intensity(
+          uniformCap(Vec2{(i % n + Real(0.5)) / n, (i / n + Real(0.5)) / n}, cosReach_).d);
     return 2 * kPi * (1 - cosReach_) / (n * n) * sum;
   }
 
