@@ -5,7 +5,7 @@
 namespace vestige::judge {
 namespace {
 
-/// Of the statistical tests of energy: calls for each direction.
+/// Number of samples of each direction in the statistical tests of energy.
 int energySamples(const Effort& effort) { return std::max(effort.samples / 2, 64); }
 
 /// f(prev, next) etaScale, and f(next, prev).

@@ -73,7 +73,7 @@ inline Value harshValue(const Parameter& row, Random& r) {
   }
 }
 
-/// As the scene language writes it. `name`: of the row.
+/// A setting in the scene language. `name`: name of the row.
 inline void writeValue(std::ostream& text, const std::string& name, const Value& value) {
   const auto isWord = [](const std::string& t) {
     return !t.empty() && std::all_of(t.begin(), t.end(), [](char c) {

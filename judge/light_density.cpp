@@ -5,7 +5,7 @@
 namespace vestige::judge {
 namespace {
 
-/// Density of a direction at infinity, as a ray that leaves the scene asks for it.
+/// Density of a direction at infinity, as for a ray that leaves the scene.
 double densityTowards(const Light& light, const Receiver& from, Vec3 d) {
   return double(light.pdf(from, {from.position, d, kInfinity, {}, {}, {}}));
 }
@@ -16,7 +16,7 @@ std::vector<double> overSurface(const Light& light, const Receiver& from,
                                 const SpherePartition& cells) {
   std::vector<double> sums(cells.cells(), 0);
   const TriangleMesh& mesh = *light.geometry();
-  // As many points in all, however many triangles.
+  // The total number of points does not depend on the number of triangles.
   const int fine = std::max(16, int(400 / std::sqrt(double(mesh.triangles.size()) / 2)));
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]] - a, c = mesh.positions[t[2]] - a;

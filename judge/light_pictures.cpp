@@ -34,7 +34,7 @@ Vec3 placeToLook(const Light& light, unsigned seed) {
   return best;
 }
 
-/// Where a ray meets the light's surface, or leaves the scene.
+/// The hit of a ray with the light's surface, or at infinity.
 std::optional<LightHit> hitOf(const Light& light, Vec3 from, Vec3 d) {
   if (light.traits().isInfinite) return LightHit{from, d, kInfinity, {}, {}, {}};
   const TriangleMesh* mesh = light.geometry();

@@ -2,8 +2,8 @@
 // Pictures of a plugin's samples and errors, for one set of parameters and one receiver.
 //
 //     density.png     samples beside the density that they are said to have
-//     flux.png        what a light's particles bring beside what sample() says
-//     derivative.png  over the unit square of numbers, or over a film: how far derivatives are from
+//     flux.png flux of a light's particles beside that of sample() derivative.png over the unit
+//     square of numbers, or over a film: how far derivatives are from
 //                     differences
 //     emission.png    the same for a light's particles
 #pragma once

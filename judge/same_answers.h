@@ -14,7 +14,7 @@
 
 namespace vestige::judge {
 
-/// Numbers of an answer, compared by their bits: NaN is like itself.
+/// Numbers of a result, compared by their bits: NaN equals itself.
 class Bits {
  public:
   void add(Real x) {

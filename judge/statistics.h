@@ -158,7 +158,7 @@ class SpherePartition {
     grow(child, below, level + 1), grow(child + 1, above, level + 1);
   }
 
-  /// Where to cut so that both halves get samples; false where all are alike along the axis.
+  /// The cut that gives both halves samples; false if all samples are equal along the axis.
   static bool medianOf(std::vector<Point>& points, std::size_t axis, double& at) {
     const auto less = [&](const Point& a, const Point& b) { return a[axis] < b[axis]; };
     std::sort(points.begin(), points.end(), less);

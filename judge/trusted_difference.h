@@ -31,9 +31,9 @@ bool isBend(const Map& map, double h, double tolerance) {
 }
 
 /// The same as fivePoints(), or nullopt where it cannot be trusted to `tolerance`: a smaller step
-/// gives another answer (a curve too sharp, a seam, the edge of total reflection), or rounding of
-/// values of size `noise` would drown it. Two smaller steps are asked: across an edge two answers
-/// may be alike by chance, which 10^5 events find.
+/// gives another result (a curve too sharp, a seam, the edge of total reflection), or rounding of
+/// values of size `noise` would drown it. Two smaller steps are tried: across an edge two results
+/// may agree by chance, which does happen in 10^5 events.
 template <class Map>
 auto trustedDifference(const Map& map, double h, double tolerance, double noise = 1)
     -> decltype(map(0.0)) {

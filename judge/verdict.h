@@ -15,7 +15,7 @@ struct Effort {
   double falseAlarm = 1e-5;  ///< probability that all chi-square tests together blame a good plugin
   int depth = 7;             ///< chi-square has up to 2^depth cells
 
-  /// Of the tests that look at single events, per set of parameters.
+  /// Number of events of the tests of single events, per set of parameters.
   int events() const { return samples < 64 ? 4 : samples / 16; }
 };
 

@@ -26,7 +26,7 @@ struct Context {
   Names names;
   Reporter reporter;
   Symbols symbols;
-  double version = 3.7;                ///< #version only sets what `version` answers
+  double version = 3.7;  ///< set by #version, returned by `version`; has no other effect
   std::vector<std::uint32_t> streams;  ///< states of rand(), by what seed() returned
   int nesting = 0;          ///< depth of braces, parentheses and calls: bounds our own stack
   std::int64_t blocks = 0;  ///< number created so far, copies included

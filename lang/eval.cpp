@@ -114,7 +114,7 @@ double Evaluator::apply(const std::string& op, double x, double y, const Expr& e
   if (op != "/" && op != "%") return relation(op, x, y);
   if (y != 0) return op == "/" ? x / y : std::fmod(x, y);
   context_.reporter.warning(e.wordSpan, "division by zero");
-  return HUGE_VAL;  // POV-Ray's answer, for 0/0 too
+  return HUGE_VAL;  // POV-Ray's result, for 0/0 too
 }
 
 Datum Evaluator::binary(const Expr& e, Arguments a) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the tree of a function to its program: steps on a stack of numbers, in the order in which
-// the operands stand. Both branches of a choice are computed, so each call costs the same.
+// Compiles the tree of a function to its program: steps on a stack of numbers, in the order of the
+// operands. Both branches of a choice are computed, so each call costs the same.
 #include "lang/function.h"
 
 #include <cmath>

@@ -69,7 +69,7 @@ Result readSceneText(const std::string& name, const std::string& text, const Sch
 /// includes.
 void print(std::ostream& out, const Diagnostic& diagnostic, const Sources& sources, bool colour);
 
-/// Where a span begins, for --json.
+/// The place of a span, for --json.
 struct Place {
   std::string file;
   int line = 0, column = 0;        ///< from 1; 0: no place

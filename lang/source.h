@@ -39,8 +39,8 @@ class Sources {
   std::string excerpt(const Span& span) const;
   /// From 0.
   int lineOf(int file, std::uint32_t offset) const;
-  /// From the beginning of one to the end of the other; where they came through different calls,
-  /// as seen from the innermost text that holds both.
+  /// The span from the beginning of one to the end of the other; if they came through different
+  /// calls, in the innermost text that contains both.
   Span join(Span a, Span b) const;
 
  private:

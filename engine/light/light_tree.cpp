@@ -15,7 +15,7 @@ constexpr int kBins = 12;
 
 double sane(double power) { return std::isfinite(power) && power > 0 ? power : 0; }
 
-/// What a cluster costs [CK18 Sec. 4.1, simplified]: power, spread in space and in directions.
+/// Cost of a cluster [CK18 Sec. 4.1, simplified]: power, spread in space and in directions.
 Real cost(const LightCluster& c) noexcept {
   return c.power * lengthSquared(c.box.size()) * (Real(0.1) + 1 - std::cos(c.angle + c.reach));
 }

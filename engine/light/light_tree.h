@@ -50,7 +50,7 @@ struct LightCluster {
 /// A binary tree over all lights with a known extent. The others (at infinity, or of unknown
 /// extent) are chosen by power beside the tree. Where there are lights at infinity and finite ones,
 /// each of the two groups gets half of the choices: the power of a sky grows with the scene and
-/// says little about what arrives at a point indoors. Lights that are not drawn have no chance.
+/// is a poor estimate of its contribution indoors. Lights that are not drawn have probability 0.
 class LightTree {
  public:
   void build(std::span<const Light* const> lights);
@@ -77,7 +77,8 @@ class LightTree {
             const std::vector<LightCluster>& clusters);
   /// Whether no light of the tree reaches a point; its share then goes to the lights beside it.
   bool skipsTree(Vec3 at) const noexcept;
-  /// Of the first of two neighbours, in place of the second; nullopt: nothing arrives from either.
+  /// Probability of the first of two children against the second; nullopt: neither reaches the
+  /// receiver.
   std::optional<Real> firstChance(std::int32_t first, Vec3 at) const noexcept;
 
   LightTable table_;                   ///< lights as in outside_, then the tree

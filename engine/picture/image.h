@@ -32,9 +32,9 @@ struct WriteOptions {
   Display display;         ///< for PNG, JPEG and other integer formats
   bool halfFloat = false;  ///< for EXR
 };
-/// By the ending: EXR, HDR, TIFF linear with all channels; PNG, JPEG RGB through OpenColorIO.
-/// Writes beside the target and renames, so that a full disk never leaves half a picture under its
-/// name. False with `error` in the user's words.
+/// Writes a picture in the format of the file's ending: EXR, HDR, TIFF linear with all channels;
+/// PNG, JPEG RGB through OpenColorIO. Writes beside the target and renames, so that a full disk
+/// never leaves half a picture under its name. False with `error` in the user's words.
 bool writeImage(const std::string& file, const Image& image, const WriteOptions& options,
                 std::string& error);
 

@@ -27,8 +27,8 @@ struct Plugin {
 /// Names of the libraries in a folder, sorted. None of them is opened.
 std::vector<std::string> librariesIn(const std::string& folder);
 
-/// `.../brdf_phong.so` promises brdf phong. A file whose name has no known kind, or no word of the
-/// language after it, promises nothing.
+/// `.../brdf_phong.so` announces brdf phong. A file whose name has no known kind, or no word of the
+/// language after it, announces no plugin.
 std::optional<PluginName> promisedBy(const std::string& file);
 
 /// Opens one library and checks it; nullopt with the reason in `why`. Its plugin must be the

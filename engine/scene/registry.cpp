@@ -42,7 +42,8 @@ std::string noteOnDifferences(const Plugin& plugin) {
 class Registry::Catalogue {
  public:
   Catalogue();
-  /// The next library of the folders: noted if its name says what it holds, opened if not.
+  /// Processes the next library of the folders: notes it if its name announces a plugin, else opens
+  /// it.
   void add(const std::string& file, std::vector<std::string>& refusedNow);
   /// After these nothing of that name, that kind, nothing at all waits.
   void open(const PluginName& wanted);

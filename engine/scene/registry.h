@@ -91,7 +91,7 @@ std::string installationFolder();
 std::string installedPluginFolder();
 std::string installedIncludeFolder();
 std::string installedTemplateFolder();
-/// Where a user keeps plugins of his own, ~/.local/lib/vestige; "" for one without a home.
+/// The user's own folder of plugins, ~/.local/lib/vestige; "" without a home folder.
 std::string userPluginFolder();
 /// The installed folder, that of the user, VESTIGE_PLUGIN_PATH, then `extra`: what comes later
 /// goes before.

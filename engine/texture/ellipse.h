@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a footprint to the weights of texels, private to engine/texture.
+// Weights of texels for a footprint, private to engine/texture.
 //
 // The filter is an elliptical weighted average [Hec89 3.5] over a level of the pyramid that is fine
 // enough for the ellipse's minor axis. What a texel weighs is a bump of the quadratic form q of the

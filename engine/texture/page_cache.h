@@ -80,7 +80,7 @@ class PagedFile {
   OIIO::ImageCache::ImageHandle* handle_;
   mutable std::atomic<std::size_t> failures_ = 0;
   mutable std::mutex badTilesMutex_;
-  mutable std::set<std::tuple<int, int, int>> badTiles_;  ///< level, x, y as asked for
+  mutable std::set<std::tuple<int, int, int>> badTiles_;  ///< level, x, y as requested
 
   bool isBad(int level, int x, int y) const {
     const std::lock_guard lock(badTilesMutex_);

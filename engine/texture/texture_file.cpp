@@ -28,8 +28,7 @@ namespace {
 
 std::string title() { return fmt::format("vestige texture {}", kTextureFileVersion); }
 
-/// In the one field of text that TIFF has for us. Numbers are written so that they come back as
-/// they were.
+/// Stored in TIFF's only free text field. Numbers are written with all digits.
 std::string description(const Texels& t, const std::string& key) {
   return fmt::format("{}\n{}\n{} {} {} {}\n{}\n", title(), key, t.mean.colour.r, t.mean.colour.g,
                      t.mean.colour.b, t.mean.alpha, t.nonFinite);
@@ -192,7 +191,7 @@ std::optional<TextureFacts> readTextureFile(const std::string& file, const Texel
         s.format != format || s.tile_width != kTileSide || s.tile_height != kTileSide ||
         s.depth > 1 || s.x != 0 || s.y != 0)
       return false;
-    // What was cut off a file is missing in some level's last tile, even if all headers are there.
+    // A truncated file lacks the last tile of some level, even if all headers are complete.
     const int x = (width - 1) / kTileSide * kTileSide, y = (height - 1) / kTileSide * kTileSide;
     return input->read_native_tile(0, index, x, y, 0, tile.data());
   };

@@ -59,7 +59,8 @@ class Principled final : public Brdf {
     const Real density = m.lobePdf(d);
     const bool rightSide = d.lobe == kRefracted ? d.toNext.z < 0 : d.toNext.z > 0;
     if (!(rightSide && d.chance * density > 0)) return std::nullopt;
-    // Of one facet, so that narrow lobes cancel exactly; a diffuse direction has its own half-way.
+    // Weight by one facet, so that narrow lobes cancel exactly; a diffuse direction has its own
+    // half vector.
     const Facet f = d.lobe == kDiffuse ? facetBetween(p.toPrev, d.toNext, m.eta) : d.facet;
     const ScatterValue value = m.value(f, d.toNext);
     return ScatterSample{.toNext = d.toNext,
@@ -155,7 +156,7 @@ class Principled final : public Brdf {
           metal(unit(p.inputs.real(kMetallic))),
           opaque((1 - metal) * (1 - unit(p.inputs.real(kTransmission)))),
           clear((1 - metal) * unit(p.inputs.real(kTransmission))) {
-      // By energy at normal facets, but never below a tenth: facets may see it otherwise.
+      // By energy at normal facets, but never below a tenth: facets may be hit at other angles.
       const Real d = kPi * luminance(diffuse(1).value);
       const Real s = luminance(reflected(prev.z).value) +
                      luminance(refracted(prev.z, refractedCosine(prev.z, eta)).value);

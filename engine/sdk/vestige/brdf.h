@@ -78,7 +78,8 @@ struct ScatterJacobian {
   Mat3 dPrev;  ///< [3 x 3], per radian of toPrev; applied to tangents of toPrev only
 };
 
-/// From four derivatives: by u.x, by u.y, and by turning toPrev along s and t of a frame around it.
+/// The Jacobian from four derivatives: by u.x, by u.y, and by rotating toPrev along s and t of a
+/// frame around it.
 inline ScatterJacobian scatterJacobian(const Frame& toPrev, const Four3& d) noexcept {
   return {.du = {column(d, 0), column(d, 1)},
           .dPrev = outer(column(d, 2), toPrev.s) + outer(column(d, 3), toPrev.t)};
@@ -111,12 +112,12 @@ class Brdf {
                                               ScatterNumbers n) const noexcept = 0;
 
   /// Derivatives of the map inside sample(), for the numbers that it was called with [PD01 2.3].
-  /// For every lobe that is not specular: |du.c0 x du.c1| lobePdf = 1. By default: finite
+  /// Every lobe that is not specular has |du.c0 x du.c1| lobePdf = 1. By default: finite
   /// differences of sample(), some forty calls of it, and a note to the user.
   virtual ScatterJacobian sampleDerivatives(const ScatterPoint& p, ScatterNumbers n) const noexcept;
 
-  /// For any toNext, sampled or chosen by a light [PD01 Sec. 3.2]. Zero where f is zero. By
-  /// default: finite differences of evaluate(), and a note to the user.
+  /// Gradient of log f for any toNext, sampled or chosen by a light [PD01 Sec. 3.2]. Zero where f
+  /// is zero. By default: finite differences of evaluate(), and a note to the user.
   virtual LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept;
 
   /// The diffuse part of f. Integrators that store irradiance on surfaces store the light for this

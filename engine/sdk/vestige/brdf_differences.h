@@ -2,10 +2,10 @@
 // The default derivatives of a BRDF: finite differences of sample() and evaluate(). The engine
 // notifies the user once if a scene uses such a plugin.
 //
-// A lobe built in a frame around a moving axis turns that frame as its routine likes, and without
-// bound near the frame's own singularity. Derivatives are free of that spin [MATH 1.9]: the frame
-// is read off the lobe (its middle is u = <1/2, 1/2>, azimuth 0 lies towards u = <1, 1/2>), and
-// every neighbour is carried back along the shortest turn of its axis.
+// A lobe built in a frame around a moving axis rotates with that frame arbitrarily, and without
+// bound near the frame's singularity. Derivatives are free of that spin [MATH 1.9]: the frame is
+// read off the lobe (its middle is u = <1/2, 1/2>, azimuth 0 lies towards u = <1, 1/2>), and every
+// neighbour is carried back along the shortest turn of its axis.
 #pragma once
 #include <vestige/brdf.h>
 #include <vestige/tools/differences.h>

@@ -3,7 +3,7 @@
 #include <vestige/inputs.h>
 #include <optional>
 
-/// From a point of the film to a ray into the world.
+/// A map from points of the film to rays in the world.
 ///
 /// Conventions of every method:
 ///   * The film is the unit square: x from left to right, y from top to bottom; `aspect` is its

@@ -6,8 +6,8 @@
 //     template <class T>   // the direction of one lobe, for numbers that do not end the path
 //     TVec3<T> direction(const ScatterPoint& p, const TVec3<T>& toPrev, Real lobe,
 //                        const TVec2<T>& u) const noexcept;
-//     template <class T>   // log of the luminance of f; asked only where f > 0
-//     T logValue(const ScatterPoint& p, const TVec3<T>& toPrev,
+//     template <class T> // log of the luminance of f; called only where f > 0 T logValue(const
+//     ScatterPoint& p, const TVec3<T>& toPrev,
 //                const TVec3<T>& toNext) const noexcept;
 #pragma once
 #include <vestige/brdf.h>

@@ -6,11 +6,11 @@
 //      public:
 //       template <class T>   // from the receiver to the light, of any length, as sample() draws it
 //       TVec3<T> way(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
-//       template <class T>   // log of the factor of LightLogGradient; asked where sample() draws
-//       T logFactor(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
-//       template <class T>   // what emit() starts; the direction of any length
-//       TRay<T> particle(const TVec2<T>& point, const TVec2<T>& direction) const noexcept;
-//       ...                  // and sample(), pdf(), eval(), emit(), power() as in light.h
+//       template <class T> // log of the factor of LightLogGradient; called only where sample()
+//       returns a sample T logFactor(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
+//       template <class T> // what emit() starts; the direction of any length TRay<T>
+//       particle(const TVec2<T>& point, const TVec2<T>& direction) const noexcept; ... // and
+//       sample(), pdf(), eval(), emit(), power() as in light.h
 //     };
 //
 // A light that emits no particles omits particle() and emit().

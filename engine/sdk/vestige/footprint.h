@@ -11,8 +11,8 @@
 //
 // footprint/differentials.h  the chain rule      footprint/deltas.h    how far a number may move
 // footprint/footprints.h     regions             footprint/reduce.h    many numbers into four
-// footprint/settings.h       what is followed    footprint/language.h  how a scene says so
-// footprint/score.h          the gradient of F/p         footprint/cone.h      others' heuristics
+// footprint/settings.h what is followed footprint/language.h the scene's words footprint/score.h
+// the gradient of F/p footprint/cone.h others' heuristics
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001.
 #pragma once

@@ -45,8 +45,8 @@ class Values {
   const Block* block(int i, int j) const { return value(i, j).block.get(); }
   Span span(int i, int j) const { return rows_[i].list->entries[std::size_t(j)].span; }
 
-  /// From the block's own space to world space. Lights and cameras apply it themselves; shapes and
-  /// pigments must not, since the engine calls them in their own space.
+  /// Transform from the block's own space to world space. Lights and cameras apply it themselves;
+  /// shapes and pigments must not, since the engine calls them in their own space.
   const Affine& toWorld() const { return toWorld_; }
 
  private:

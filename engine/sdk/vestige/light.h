@@ -123,8 +123,8 @@ class Light {
 
   /// By default: finite differences of sample(), and a note to the user.
   virtual LightJacobian sampleDerivatives(const Receiver& r, Vec2 u) const noexcept;
-  /// By default: finite differences of sample(), and a note to the user. They take the light for
-  /// one whose points are drawn by area if it has a geometry().
+  /// By default: finite differences of sample(), and a note to the user. They assume that points
+  /// are drawn by area if the light has a geometry().
   virtual LightLogGradient logGradient(const Receiver& r, Vec2 u) const noexcept;
 
   /// Emits a particle; nullopt: no particle for these random numbers, which loses no energy. By

@@ -105,7 +105,8 @@ class EmissionMap {
   }
   const std::optional<Particle>& here() const noexcept { return here_; }
 
-  /// With number k (0, 1: point; 2, 3: direction) moved by h; nullopt outside of the unit squares.
+  /// emit() with random number k (0, 1: point; 2, 3: direction) moved by h; nullopt outside the
+  /// unit squares.
   std::optional<Particle> moved(int k, Real h) const noexcept {
     EmissionNumbers n = u_;
     Vec2& pair = k < 2 ? n.point : n.direction;
@@ -113,7 +114,7 @@ class EmissionMap {
     x += h;
     if (!(x >= 0 && x < 1)) return std::nullopt;
     std::optional<Particle> p = light_.emit(n);
-    // Only what a frame was built around turns it: the point of a surface, a direction at infinity.
+    // Only the axis of a frame can rotate it: the point of a surface, or a direction at infinity.
     if (!p || !frame_ || isInfinite_ != (k >= 2)) return p;
     const auto there = frameAt(n, *p);
     if (!there) return std::nullopt;
@@ -133,7 +134,7 @@ class EmissionMap {
     Frame frame;
     Vec3 pivot;
   };
-  /// At infinity the disk that a direction starts from, else the hemisphere of a point.
+  /// The frame of the disk of a direction at infinity, else of the hemisphere of a point.
   std::optional<Pivoted> frameAt(EmissionNumbers n, const Particle& p) const noexcept {
     Vec2& across = isInfinite_ ? n.point : n.direction;
     across = {Real(0.5), Real(0.5)};

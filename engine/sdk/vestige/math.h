@@ -86,7 +86,7 @@ inline Real maxAbsComponent(Vec3 a) noexcept {
 inline bool isFinite(Vec3 a) noexcept { return std::isfinite(a.x + a.y + a.z); }
 
 // ---------------------------------------------------------------- colours
-/// Linear, in rendering space (Rec. 709 unless the scene says otherwise).
+/// A linear colour in rendering space (Rec. 709).
 struct Rgb {
   Real r{}, g{}, b{};
 };
@@ -216,7 +216,7 @@ struct Affine {
            m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
   }
-  /// Only for determinant() != 0.
+  /// The inverse; requires determinant() != 0.
   Affine inverse() const noexcept {
     Affine r;
     const double d = 1 / determinant();

@@ -47,7 +47,8 @@ struct Parameter {
   std::string help;                ///< one line
   std::vector<std::string> choices;
   std::string blockKind;
-  /// Of a list or a map. Range, unit, choices, block kind and pigments are those of each value.
+  /// Type of each value of a list or a map. Range, unit, choices, block kind and pigments apply to
+  /// each value.
   ValueType entryType = ValueType::real;
   int minEntries = 1;
   int maxEntries = std::numeric_limits<int>::max();
@@ -181,7 +182,7 @@ inline Parameter block(std::string name, std::string kind) {
   return p;
 }
 
-/// `profile [<0, 0> <1, 2>]`: one or more values of a type, unless entries() says otherwise; no
+/// `profile [<0, 0> <1, 2>]`: one or more values of a type (or as many as entries() allows); no
 /// default. A name of an array gives them too.
 inline Parameter list(std::string name, ValueType entryType) {
   Parameter p = parameter(std::move(name), ValueType::list, {});

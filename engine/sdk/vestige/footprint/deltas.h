@@ -10,7 +10,7 @@
 
 namespace vestige {
 
-/// Where deltas come from; words of the scene language (docs/language.md, footprint).
+/// The bounds of deltas; words of the scene language (docs/language.md, footprint).
 enum class Bound {
   none,       ///< no footprints at all
   pixel,      ///< the film's numbers only: Igehy's ray differentials
@@ -46,7 +46,7 @@ inline Real safeDelta(Real n, int variables) noexcept {
 class PathCount {
  public:
   /// `index`: of this sample in its pixel; `declared`: samples a pixel (particles of all lights)
-  /// the user asked for, 0 if open ended, then index + 1 stands for it.
+  /// in the scene, 0 if open ended: index + 1 then replaces it.
   void begin(std::uint64_t index, std::uint64_t declared, int variables) noexcept {
     index_ = Real(index + 1);
     total_ = declared > 0 ? Real(declared) : index_;

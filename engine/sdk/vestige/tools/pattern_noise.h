@@ -67,10 +67,10 @@ inline std::uint32_t octaveSeed(std::uint32_t seed, int octave) noexcept {
   return seed + std::uint32_t(octave) * 0x68e31da4u;
 }
 
-/// What a mean over a patch keeps of noise at its centre: the correlation of gradient noise over a
-/// distance r is about exp(-2.3 r^2) (`finer` times that in the exponent for shapes like |n|), of
-/// which the mean over a box of width l is about exp(-2.3 l^2 / 12). The patch is in lattice units.
-/// 0 where the result is negligible.
+/// The share of the noise at a patch's centre that remains in the mean over the patch: the
+/// correlation of gradient noise over a distance r is about exp(-2.3 r^2) (`finer` times that in
+/// the exponent for shapes like |n|), of which the mean over a box of width l is about exp(-2.3 l^2
+/// / 12). The patch is in lattice units. 0 where the result is negligible.
 inline Real noiseKept(const PatternFootprint& patch, Real finer = 1) noexcept {
   const Real squares = lengthSquared(patch.a) + lengthSquared(patch.b);
   return squares * finer < 25 ? std::exp(Real(-2.3 / 12) * finer * squares) : Real(0);

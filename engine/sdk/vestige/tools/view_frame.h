@@ -80,7 +80,7 @@ struct PerspectiveFilm {
     return {std::tan(radians(angle) / 2)};
   }
 
-  /// From the eye to a film point; its part along the view is 1.
+  /// Vector from the eye to a film point; its component along the view is 1.
   Vec3 toPoint(const ViewFrame& v, Vec2 film, Real aspect) const noexcept {
     const Vec2 p = {halfWidth * (2 * film.x - 1), halfWidth / aspect * (1 - 2 * film.y)};
     return v.forward + p.x * v.right + p.y * v.up;
