@@ -72,29 +72,32 @@ class Coat final : public Brdf {
   }
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
+    // d(log(a + b)) = (a d(log a) + b d(log b)) / (a + b)
     const Layer layer(p);
     const ScatterPoint below = base_.at(p);
     const Real base = layer.passed(p, toNext) * luminance(base_.brdf->evaluate(below, toNext).fCos);
+    const Facet f = facetOf(p, toNext);
+    const Fresnel fresnel = f.exists() ? layer.reflected(f.cosPrev) : Fresnel{0, 0};
+    const Real top = fresnel.value > 0
+                         ? toNext.z * fresnel.value * facetValue(layer.ggx, f, p.toPrev, toNext)
+                         : 0;
+    const Real total = base + top;
     LogGradient sum = {};
+    if (!(total > 0)) return sum;
     if (base > 0) {
       const LogGradient g = base_.brdf->logGradient(below, toNext);
       const Fresnel in = layer.transmittedOf(p.toPrev, !p.behind);
       const Fresnel out = layer.transmittedOf(toNext, (toNext.z < 0) == p.behind);
-      sum.dPrev = base * (g.dPrev + Vec3{0, 0, in.slope / in.value});
-      sum.dNext = base * (g.dNext + Vec3{0, 0, out.slope / out.value});
+      sum.dPrev = base / total * (g.dPrev + Vec3{0, 0, in.slope / in.value});
+      sum.dNext = base / total * (g.dNext + Vec3{0, 0, out.slope / out.value});
     }
-    Real total = base;
-    const Facet f = facetOf(p, toNext);
-    const Fresnel fresnel = f.exists() ? layer.reflected(f.cosPrev) : Fresnel{0, 0};
-    if (fresnel.value > 0) {
-      const Real top = toNext.z * fresnel.value * facetValue(layer.ggx, f, p.toPrev, toNext);
+    if (top > 0) {
       const FacetGradient g =
           facetLogGradient(layer.ggx, f, p.toPrev, toNext, fresnel.slope / fresnel.value);
-      sum.dPrev += top * g.dPrev;
-      sum.dNext += top * g.dNext;
-      total += top;
+      sum.dPrev += top / total * g.dPrev;
+      sum.dNext += top / total * g.dNext;
     }
-    return total > 0 ? LogGradient{sum.dPrev / total, sum.dNext / total} : LogGradient{};
+    return sum;
   }
 
   Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
@@ -133,8 +136,9 @@ class Coat final : public Brdf {
     }
   };
 
+  /// The facet of the layer's reflection.
   static Facet facetOf(const ScatterPoint& p, Vec3 toNext) noexcept {
-    return toNext.z > 0 ? facetBetween(p.toPrev, toNext, 1) : Facet{};
+    return toNext.z > 0 && !p.behind ? facetBetween(p.toPrev, toNext, 1) : Facet{};
   }
   static Real rest(const Layer& layer, Real lobe) noexcept {
     return std::min((lobe - layer.chance) / (1 - layer.chance), kOneMinusEpsilon);

@@ -66,18 +66,17 @@ class Mix final : public Brdf {
 
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     // d(log(a + b)) = (a d(log a) + b d(log b)) / (a + b)
+    Real f[2] = {};
+    for (const int i : {0, 1})
+      f[i] = luminance(partOf(p, i).share * parts_[i].brdf->evaluate(parts_[i].at(p), toNext).fCos);
     LogGradient sum = {};
-    Real total = 0;
     for (const int i : {0, 1}) {
-      const ScatterPoint inner = parts_[i].at(p);
-      const Real f = luminance(partOf(p, i).share * parts_[i].brdf->evaluate(inner, toNext).fCos);
-      if (!(f > 0)) continue;
-      const LogGradient g = parts_[i].brdf->logGradient(inner, toNext);
-      sum.dPrev += f * g.dPrev;
-      sum.dNext += f * g.dNext;
-      total += f;
+      if (!(f[i] > 0)) continue;
+      const LogGradient g = parts_[i].brdf->logGradient(parts_[i].at(p), toNext);
+      sum.dPrev += f[i] / (f[0] + f[1]) * g.dPrev;
+      sum.dNext += f[i] / (f[0] + f[1]) * g.dNext;
     }
-    return total > 0 ? LogGradient{sum.dPrev / total, sum.dNext / total} : LogGradient{};
+    return sum;
   }
 
   DiffusePart diffuse(const ScatterPoint& p) const noexcept override {

@@ -46,7 +46,7 @@ class Phong final : public Brdf {
     if (!(reflect >= 0)) return {};
     const Real power = cosPower(axis(p, lobe), toNext, n) / (2 * kPi);
     const Real chance = lobe == kReflected ? reflect : 1 - reflect;
-    return {(n + 2) * power * std::abs(toNext.z) * fraction(p, lobe), chance * (n + 1) * power};
+    return {fCos(p, toNext, n, power), chance * (n + 1) * power};
   }
 
   std::optional<ScatterSample> sample(const ScatterPoint& p,
@@ -85,7 +85,7 @@ class Phong final : public Brdf {
   LogGradient logGradient(const ScatterPoint& p, Vec3 toNext) const noexcept override {
     const Real n = exponent(p);
     const Axis a = axis(p, side(toNext));
-    if (cosPower(a, toNext, n) == 0 || isBlack(fraction(p, side(toNext)))) return {};
+    if (isBlack(fCos(p, toNext, n, cosPower(a, toNext, n) / (2 * kPi)))) return {};
     // log f = n log(axis . next) + const
     const Real slope = n / dot(a.direction, toNext);
     return {slope * (transpose(a.dPrev) * toNext), slope * a.direction};
@@ -123,6 +123,11 @@ class Phong final : public Brdf {
     const Rgb own = lobe == kReflected ? s : t;
     const auto fit = [](Real x, Real total) { return total > 1 ? x / total : x; };
     return {fit(own.r, sum.r), fit(own.g, sum.g), fit(own.b, sum.b)};
+  }
+
+  /// f |cos| of a direction; `power`: cosPower() / (2 pi).
+  static Rgb fCos(const ScatterPoint& p, Vec3 toNext, Real n, Real power) noexcept {
+    return (n + 2) * power * std::abs(toNext.z) * fraction(p, side(toNext));
   }
 
   /// Probability of the lobe by luminance; negative if both are black.
