@@ -48,7 +48,7 @@ std::string reportText(const Plugin& plugin, const TestRequest& request,
     const char* result = !v.passed ? "FAIL" : v.events > 0 ? "pass" : "none";
     text +=
         fmt::format("{}  {:<58} {:>8} events  {}\n", result, v.test, v.events,
-                    v.passed ? v.sentence : fmt::format("{:.3g} times what is allowed", v.excess));
+                    v.passed ? v.sentence : fmt::format("{:.3g} times the tolerance", v.excess));
     if (!v.passed) failures += fmt::format("\n{}\n    {}\n", v.sentence, v.worst);
   }
   text += failures;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// All tests of a BRDF, and who is to blame: a method that several witnesses speak against.
+// All tests of a BRDF, and the method at fault: the one that several tests contradict.
 #include "judge/judge.h"
 
 namespace vestige::judge {
 namespace {
 
-/// All that was found, so that one finding can speak about another.
+/// The findings of all tests, so that one can be judged by another.
 struct BrdfFindings {
   DensityFindings density;
   Finding ownPdf, lobePart, weight, energy, diffuse, oneSide, across, snell;
@@ -36,7 +36,7 @@ std::string culpritOfMap(const BrdfFindings& f) {
   if (density) return "";
   if (!f.ownPdf.passed()) return "evaluate().pdf";  // the sample's own pdf disagrees as well
   if (!f.du.passed())
-    return "sample()";  // neither evaluate().pdf nor the derivative are of this map
+    return "sample()";  // neither evaluate().pdf nor the derivative belongs to this map
   return "evaluate().pdf";
 }
 
@@ -45,7 +45,7 @@ std::string culpritOfArea(const BrdfFindings& f) {
   if (!f.du.passed()) return f.du.method;
   const bool density = f.density.distribution.passed() && f.density.mass.passed();
   if (!density && f.ownPdf.passed())
-    return "evaluate().pdf";  // both of the sample's densities follow it
+    return "evaluate().pdf";  // both densities of the sample agree with it
   return "sample().lobePdf";
 }
 
@@ -61,7 +61,7 @@ Judgement judgeBrdf(const BrdfCases& cases, const Schema* schema, const Effort& 
   const BrdfFindings f = findings(cases, schema, effort);
   const std::string map = culpritOfMap(f);
   const std::string weight = culpritOfWeight(f, map);
-  // What answers by chance, or not with numbers, fails elsewhere too: it is told first.
+  // Non-deterministic or NaN results make other tests fail too: they are reported first.
   Judgement j;
   j.verdicts = {verdictOf(f.threads),
                 verdictOf(f.fuzz),

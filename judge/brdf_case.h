@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is asked of a BRDF: parameter sets and directions.
+// Parameter sets and directions for the tests of a BRDF.
 #pragma once
 #include <vestige/brdf.h>
 
@@ -15,11 +15,11 @@ struct BrdfCase {
   std::string plugin, settings;  ///< settings as in a scene: "{ alpha 0.3 ior 1.5 }"
   std::shared_ptr<Brdf> brdf;
   InputBuffer inputs;
-  int refractiveIndex = -1;  ///< which input is that of the inside; -1: none is
-  Real outside = 1;          ///< refractive index there
-  bool hasInside = false;    ///< whether `behind` makes a difference
-  /// Whether its lobes through the surface are reciprocal. That of phong cannot be: a lobe about
-  /// the refracted direction has no mirror image, it widens where the light narrows.
+  int refractiveIndex = -1;  ///< index of the input with the inside's index; -1: none
+  Real outside = 1;          ///< refractive index outside
+  bool hasInside = false;    ///< whether the BRDF depends on `behind`
+  /// Whether its lobes through the surface are reciprocal. The lobe of phong cannot be: it is
+  /// centred on the refracted direction, and widens where refraction narrows.
   bool isReciprocalAcross = true;
 
   ScatterPoint at(Vec3 toPrev, bool behind) const {

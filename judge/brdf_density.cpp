@@ -22,7 +22,8 @@ std::vector<Vec3> densitySamples(const Brdf& brdf, const ScatterPoint& p, int n,
   return list;
 }
 
-/// A lobe in which neighbouring directions of this Real are far apart has no density to speak of.
+/// Densities above this cannot be tested: neighbouring directions of type Real are too far apart
+/// inside the lobe.
 bool isTooNarrow(const Brdf& brdf, const ScatterPoint& p, Random& r) {
   for (int i = 0; i < 50; ++i)
     if (const auto s = brdf.sample(p, numbers(r)); s && !s->specular)
@@ -30,8 +31,8 @@ bool isTooNarrow(const Brdf& brdf, const ScatterPoint& p, Random& r) {
   return false;
 }
 
-/// What rounding of toNext.z does to evaluate().pdf near the normal, where a step of a float is no
-/// longer small beside the solid angle of a lobe: 1 / pdf.
+/// The effect of rounding toNext.z on evaluate().pdf near the normal, where a step of a float is
+/// not small compared with the solid angle of a lobe, 1 / pdf.
 double rounding(const Brdf& brdf, const ScatterPoint& p, const std::vector<Vec3>& samples) {
   const std::size_t n = std::min<std::size_t>(samples.size(), 100);
   double sum = 0;
@@ -60,7 +61,7 @@ Goodness goodness(const Brdf& brdf, const ScatterPoint& p, const Effort& effort,
 
 DensityFindings samplesFollowPdf(const BrdfCases& cases, const Effort& effort) {
   Random r(effort.seed + 1);
-  DensityFindings f{{"samples are distributed as evaluate().pdf says", "evaluate().pdf"},
+  DensityFindings f{{"samples are distributed as evaluate().pdf predicts", "evaluate().pdf"},
                     {"evaluate().pdf integrates to 1 - P(nullopt or specular)", "evaluate().pdf"}};
   const double level = sidakLevel(effort.falseAlarm, cases.size() * 6);
   for (const BrdfCase& c : cases)
@@ -74,8 +75,8 @@ DensityFindings samplesFollowPdf(const BrdfCases& cases, const Effort& effort) {
         f.distribution.worst.see(std::log(std::max(g.pValue, 1e-300)) / std::log(level), [&] {
           std::ostringstream text;
           text.precision(3);
-          text << "sample() lands " << ratio << " times as often as evaluate().pdf says (p-value "
-               << g.pValue << ")";
+          text << "sample() lands " << ratio
+               << " times as often as evaluate().pdf predicts (p-value " << g.pValue << ")";
           return eventLine(c, p, {}, text.str());
         });
         f.mass.worst.see(std::abs(g.missing) / 5, [&] {
@@ -86,7 +87,7 @@ DensityFindings samplesFollowPdf(const BrdfCases& cases, const Effort& effort) {
 }
 
 Finding samplesKnowTheirPdf(const BrdfCases& cases, const Effort& effort) {
-  Finding f{"a sample's pdf is what evaluate().pdf says", "sample().pdf"};
+  Finding f{"a sample's pdf equals evaluate().pdf", "sample().pdf"};
   forEvents(
       cases, effort.events(),
       [&](const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Random&) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The derivatives that every BRDF owes: of its sampled direction by the random numbers and by
-// toPrev, and of log f. Area identity and five-point differences.
+// Tests of a BRDF's derivatives: of its sampled direction by the random numbers and by toPrev, and
+// of log f. By the area identity and five-point differences.
 #include <array>
 #include <map>
 
@@ -12,8 +12,8 @@ namespace {
 constexpr double kMapStep = kDouble ? 1e-3 : 1e-2;
 constexpr double kMapTolerance = kDouble ? 1e-6 : 4e-3;
 
-/// Next to total reflection derivatives have no bound, and plugins cut them (kMinRefractedCosine):
-/// the one place where they may differ from differences.
+/// Near total reflection derivatives have no bound, and plugins clamp them (kMinRefractedCosine):
+/// the only place where they may differ from finite differences.
 constexpr double kCut = 3e3;
 
 /// toNext of one lobe, as a map from anything that moves an event a little.
@@ -54,7 +54,7 @@ Finding areaIsInverseDensity(const BrdfCases& cases, const Effort& effort) {
 }
 
 Finding duIsTheDerivative(const BrdfCases& cases, const Effort& effort) {
-  Finding f{"du is the derivative of sample() by its numbers", "sampleDerivatives().du"};
+  Finding f{"du is the derivative of sample() by its random numbers", "sampleDerivatives().du"};
   const auto judge = [&](const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Random& r) {
     const auto s = c.brdf->sample(p, n);
     if (!s || s->specular || !differsSmoothly(n.u, Real(0.03))) return;
@@ -82,9 +82,9 @@ Finding duIsTheDerivative(const BrdfCases& cases, const Effort& effort) {
 
 Finding dPrevIsTheDerivative(const BrdfCases& cases, const Effort& effort) {
   Finding f{"dPrev is the derivative of sample() by toPrev", "sampleDerivatives().dPrev"};
-  // A lobe built in a frame around its axis may turn that frame as it likes; the derivative is the
-  // one without spin, so the frame's own spin is taken out of the differences. A lobe that is not
-  // built so has no spin to take out. Which of the two a lobe is, it has to be at every event.
+  // The frame around a lobe's axis may spin arbitrarily, but the derivative is defined without
+  // spin, so the spin is removed from the differences. Lobes without such a frame have no spin. A
+  // lobe must be of the same type at every event.
   std::map<std::string, std::array<WorstEvent, 2>> lobes;
   const auto judge = [&](const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Random& r) {
     const auto s = c.brdf->sample(p, n);
@@ -133,7 +133,7 @@ Finding dPrevIsTheDerivative(const BrdfCases& cases, const Effort& effort) {
 Finding logGradientIsTheDerivative(const BrdfCases& cases, const Effort& effort) {
   Finding f{"logGradient() is the derivative of log f", "logGradient()"};
   const auto judge = [&](const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n, Random& r) {
-    Vec3 toNext = anywhere(r);  // as a light would choose it; or as the BRDF does
+    Vec3 toNext = anywhere(r);  // as a light would choose it, or drawn by the BRDF
     if (r.number() < Real(0.5))
       if (const auto s = c.brdf->sample(p, n)) toNext = s->toNext;
     const LogGradient g = c.brdf->logGradient(p, toNext);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Events of the BRDF suite: drawn for every case, compared within what rounding allows, and the
-// worst of them kept as a line that can be reproduced.
+// Events of the BRDF tests: drawn for every case, compared within rounding; the worst one is kept
+// as a reproducible line.
 #pragma once
 #include <sstream>
 
@@ -10,9 +10,9 @@
 
 namespace vestige::judge {
 
-/// How much a number that depends on both directions changes, relatively, when each moves by a few
-/// units of rounding: what narrow lobes, grazing angles and the edge of total reflection do to the
-/// best of implementations.
+/// Relative change of a value that depends on both directions, when each changes by a few units of
+/// rounding: the unavoidable error at narrow lobes, grazing angles and the edge of total
+/// reflection.
 template <class F>
 double wobble(const ScatterPoint& p, Vec3 toNext, const F& f) {
   constexpr double kRounding = 4 * kEpsilon;

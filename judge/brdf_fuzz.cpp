@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whatever numbers come, no BRDF answers with NaN, infinity or a negative density: grazing angles,
-// the ends of the random numbers' interval, and textures that leave their range.
+// No BRDF may return NaN, infinity or a negative density: for grazing angles, the ends of the
+// random numbers' interval, and textures outside their range.
 #include "judge/brdf_tests.h"
 #include "judge/harsh.h"
 
@@ -17,7 +17,7 @@ Vec3 harshDirection(Random& r) {
   return r.number() < Real(0.1) ? Vec3{0, 0, 1} : atHeight(z, r);
 }
 
-/// The promise that a sample breaks, or "".
+/// The promise that a sample violates, or "".
 std::optional<Broken> brokenPromise(const ScatterSample& s) {
   if (!isUnit(s.toNext)) return Broken{"sample().toNext", "toNext is no unit vector"};
   if (!isColour(s.weight)) return Broken{"sample().weight", "the weight is no colour"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A BRDF under toPrev 45 degrees from the normal.
+// Pictures of a BRDF with toPrev 45 degrees from the normal.
 #include "judge/pictures.h"
 
 namespace vestige::judge {

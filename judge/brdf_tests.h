@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every BRDF has to keep of the contract in brdf.h, one function a promise.
+// Tests of the contract in brdf.h, one function for each promise.
 //
 // sample(), evaluate().pdf and sampleDerivatives() are three independent statements about one map:
 //     sample and pdf           chi-square
 //     pdf and derivative       |du.c0 x du.c1| lobePdf = 1
 //     sample and derivative    finite differences
-// A fault in one of them breaks two of these tests, which names the culprit. evaluate() is held by
-// its quotient with evaluate().pdf, by energy and by reciprocity; logGradient() by differences of
-// evaluate().
+// A fault in one of them makes two of these tests fail, which identifies it. evaluate() is tested
+// by the weight, by energy and by reciprocity; logGradient() by differences of evaluate().
 #pragma once
 #include "judge/brdf_event.h"
 #include "judge/verdict.h"
@@ -18,7 +17,7 @@ using BrdfCases = std::vector<BrdfCase>;
 
 // brdf_density.cpp
 struct DensityFindings {
-  Finding distribution;  ///< samples fall where evaluate().pdf says: chi-square
+  Finding distribution;  ///< samples are distributed as evaluate().pdf: chi-square
   Finding mass;          ///< evaluate().pdf integrates to 1 - P(nullopt or specular)
 };
 DensityFindings samplesFollowPdf(const BrdfCases& cases, const Effort& effort);
@@ -40,8 +39,8 @@ Finding dPrevIsTheDerivative(const BrdfCases& cases, const Effort& effort);
 Finding logGradientIsTheDerivative(const BrdfCases& cases, const Effort& effort);
 
 // brdf_fuzz.cpp
-/// Whatever numbers come: no NaN, infinity or negative density. `schema` tells which inputs a
-/// texture may take out of their range; null: none.
+/// No NaN, infinity or negative density. `schema`: inputs that a texture may drive out of their
+/// range; null: none.
 Finding nothingIsNan(const BrdfCases& cases, const Schema* schema, int events, unsigned seed);
 
 // brdf_threads.cpp

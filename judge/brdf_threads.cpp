@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same question has the same answer: asked again, in another order, by many threads at once.
+// Repeated calls return the same bits, in another order and from many threads at once.
 #include "judge/brdf_tests.h"
 #include "judge/same_answers.h"
 #include "judge/timing.h"
@@ -12,13 +12,13 @@ struct Question {
   ScatterPoint at;
   ScatterNumbers numbers;
   Vec3 toNext;
-  bool isDrawn;  ///< sample() gives something, so it has derivatives
+  bool isDrawn;  ///< sample() returned a direction, so there are derivatives
 };
 
 const char* const kMethods[] = {"sample()", "evaluate().fCos", "evaluate().pdf",
                                 "sampleDerivatives()", "logGradient()"};
 
-/// One method's answer, as bits.
+/// One method's result, as bits.
 Bits answer(const Question& q, std::size_t method) {
   const Brdf& b = *q.brdf->brdf;
   Bits bits;

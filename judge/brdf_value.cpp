@@ -5,10 +5,10 @@
 namespace vestige::judge {
 namespace {
 
-/// Of the statistical tests of energy: calls for each direction.
+/// Number of samples of each direction in the statistical tests of energy.
 int energySamples(const Effort& effort) { return std::max(effort.samples / 2, 64); }
 
-/// f(prev, next) etaScale and f the other way round.
+/// f(prev, next) etaScale, and f(next, prev).
 struct BothWays {
   Rgb forth, back;
 };
@@ -20,7 +20,7 @@ BothWays bothWays(const BrdfCase& c, const ScatterPoint& p, Vec3 toNext) {
   return {c.brdf->etaScale(p, toNext) * c.brdf->f(p, toNext), c.brdf->f(back, facing(p.toPrev))};
 }
 
-/// What is left for rays when the diffuse part is taken away, in the mean over directions.
+/// Compares with zero the mean of f cos without the diffuse part, which is left to rays.
 void seeWhatIsLeft(Finding& f, const BrdfCase& c, const ScatterPoint& p, const DiffusePart& diffuse,
                    int samples, Random& r) {
   double sum = 0, squares = 0;
@@ -34,7 +34,7 @@ void seeWhatIsLeft(Finding& f, const BrdfCase& c, const ScatterPoint& p, const D
   const double mean = sum / samples, variance = std::max(squares / samples - mean * mean, 0.0);
   f.worst.see(-mean / (5 * std::sqrt(variance / samples) + 0.01), [&] {
     return eventLine(c, p, {},
-                     told("without the diffuse part there is left", mean, 0) + " or more");
+                     told("the mean of f cos without the diffuse part is", mean, 0) + " or more");
   });
 }
 
@@ -68,7 +68,7 @@ Finding weightIsTheQuotient(const BrdfCases& cases, const Effort& effort) {
 }
 
 Finding noEnergyIsGained(const BrdfCases& cases, const Effort& effort) {
-  Finding f{"no surface gives back more than it gets", "evaluate().fCos"};
+  Finding f{"no more energy leaves than arrives", "evaluate().fCos"};
   const int samples = energySamples(effort);
   Random r(effort.seed + 2);
   for (const BrdfCase& c : cases)
@@ -87,15 +87,17 @@ Finding noEnergyIsGained(const BrdfCases& cases, const Effort& effort) {
         const double e = std::max(
             {excess(sum.r, squares.r), excess(sum.g, squares.g), excess(sum.b, squares.b)});
         f.worst.see(e, [&] {
-          return eventLine(
-              c, p, {}, told("it gives back", double(maxComponent(sum)) / samples, 1) + " at most");
+          return eventLine(c, p, {},
+                           told("the reflected and transmitted fraction is",
+                                double(maxComponent(sum)) / samples, 1) +
+                               " at most");
         });
       }
   return f;
 }
 
 Finding diffusePartIsNoMoreThanThereIs(const BrdfCases& cases, const Effort& effort) {
-  Finding f{"diffuse() is no more than there is", "diffuse()"};
+  Finding f{"diffuse() is a part of f", "diffuse()"};
   Random r(effort.seed + 3);
   for (const BrdfCase& c : cases)
     for (const Real height : {Real(1), Real(0.5), Real(0.1)})
@@ -118,10 +120,9 @@ Finding diffusePartIsNoMoreThanThereIs(const BrdfCases& cases, const Effort& eff
         const Vec3 next = anywhere(r);
         const Rgb expected = next.z > 0 ? diffuse.albedo / kPi : Rgb{};
         f.worst.see(relative(c.brdf->f(p, next), expected) / 1e-5, [&] {
-          return eventLine(
-              c, p, {},
-              told("it says it is all, but f is", double(maxComponent(c.brdf->f(p, next))),
-                   double(maxComponent(expected))));
+          return eventLine(c, p, {},
+                           told("isAll is set, but f is", double(maxComponent(c.brdf->f(p, next))),
+                                double(maxComponent(expected))));
         });
       }
   return f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera's rays through one point of its lens against pdf().
+// Compares a camera's rays through one point of its lens with pdf().
 #include <vestige/tools/sampling.h>
 
 #include "judge/camera_tests.h"
@@ -8,7 +8,7 @@
 namespace vestige::judge {
 namespace {
 
-/// Directions of n uniform film points; fewer where the film sees nothing.
+/// Directions of n uniform film points; fewer if some have no ray.
 std::vector<Vec3> drawn(const Camera& camera, Vec2 lens, Real aspect, int n, Random& r) {
   std::vector<Vec3> list;
   for (int i = 0; i < n; ++i)
@@ -38,7 +38,7 @@ std::vector<double> overFilm(const Camera& camera, CameraNumbers at, const Spher
   return sums;
 }
 
-/// Integral over all directions, roughly: beside the film there has to be nothing.
+/// Rough integral over all directions: the density must be zero outside the film.
 double overSphere(const Camera& camera, Vec3 origin, Real aspect) {
   constexpr int kFine = 256;
   double sum = 0;
@@ -49,7 +49,7 @@ double overSphere(const Camera& camera, Vec3 origin, Real aspect) {
   return sum * 4 * M_PI / (kFine * kFine);
 }
 
-/// The first ray that the lens point sends, whose origin all share where there is a density.
+/// The first ray through the lens point; all its rays share the origin if the camera has a density.
 std::optional<CameraSample> oneRay(const Camera& camera, CameraNumbers n, Random& r) {
   for (int i = 0; i < 50; ++i, n.film = r.pair())
     if (const auto s = camera.sample(n)) return s;
@@ -75,8 +75,8 @@ void seeDistribution(CameraDensityFindings& f, const CameraCase& c, CameraNumber
   f.distribution.worst.see(std::log(std::max(p, 1e-300)) / std::log(level), [&] {
     std::ostringstream text;
     text.precision(3);
-    text << "rays of sample() go " << ratio << " times as often there as pdf() says (p-value " << p
-         << ")";
+    text << "rays of sample() go " << ratio << " times as often there as pdf() predicts (p-value "
+         << p << ")";
     return cameraEvent(c, at, text.str());
   });
   const double edge = share < 1 ? 0.02 : 2e-3;  // of what the film sees, cut into cells
@@ -93,7 +93,7 @@ void seeDistribution(CameraDensityFindings& f, const CameraCase& c, CameraNumber
 }  // namespace
 
 CameraDensityFindings cameraRaysFollowPdf(const CameraCases& cases, const Effort& effort) {
-  CameraDensityFindings f{{"rays are distributed as pdf() says", "pdf()"},
+  CameraDensityFindings f{{"rays are distributed as pdf() predicts", "pdf()"},
                           {"pdf() integrates to 1 - P(nullopt) over directions", "pdf()"}};
   constexpr int kPlaces = 3;
   const double level = sidakLevel(effort.falseAlarm, cases.size() * kPlaces);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera's ray as a map from one number that moves: for differences.
+// A camera's ray as a map from one variable, for finite differences.
 #pragma once
 #include "judge/camera_tests.h"
 

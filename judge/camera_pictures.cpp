@@ -15,8 +15,8 @@ const char* const kOverFilm =
 
 CameraNumbers at(double x, double y) { return {{Real(x), Real(y)}, kLens, kAspect}; }
 
-/// Density of directions around a film point, from four rays half a cell away, 1/sr: how often
-/// uniform film points look there.
+/// Density of directions around a film point for uniform film points, from four rays half a cell
+/// away, 1/sr.
 double densityOfRays(const Camera& camera, double x, double y) {
   const double w = 0.5 / kColumns, h = 0.5 / kRows;
   const auto a = camera.sample(at(x - w, y - h)), b = camera.sample(at(x + w, y + h));
@@ -38,7 +38,7 @@ Picture density(const CameraCase& c) {
     const auto s = c.camera->sample(at(x, y));
     return s ? double(luminance(s->weight)) : 0;
   });
-  // A panorama's density has no bound at its poles: what most of the film has is told apart.
+  // A panorama's density has no bound at its poles: the scale is chosen for most of the film.
   std::vector<double> sorted = pdf.values;
   std::sort(sorted.begin(), sorted.end());
   const double white = 1.25 * sorted[sorted.size() * 9 / 10], most = largest(weight);

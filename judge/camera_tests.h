@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every camera has to keep of the contract in camera.h.
+// Tests of the contract in camera.h.
 #pragma once
 #include <vestige/camera.h>
 
@@ -34,10 +34,10 @@ void forCameraEvents(const CameraCases& cases, const Effort& effort, const F& f)
 
 // camera_density.cpp
 struct CameraDensityFindings {
-  Finding distribution;  ///< uniform film points send rays where pdf() says: chi-square
+  Finding distribution;  ///< rays of uniform film points are distributed as pdf(): chi-square
   Finding mass;          ///< pdf() integrates to 1 - P(nullopt)
 };
-/// Of each lens point by itself; passes over cameras without a density.
+/// Tests each lens point separately; skips cameras without a density.
 CameraDensityFindings cameraRaysFollowPdf(const CameraCases& cases, const Effort& effort);
 
 // camera_tests.cpp

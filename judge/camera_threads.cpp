@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera asked again, in another order, by many threads at once; and what a call takes.
+// Repeated calls of a camera, in another order and from many threads at once; and the time of a
+// call.
 #include "judge/camera_tests.h"
 #include "judge/same_answers.h"
 #include "judge/timing.h"

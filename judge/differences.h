@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derivatives by differences of the routine itself: the witness against those written by hand.
+// Derivatives by finite differences of the routine: the reference for those written by hand.
 #pragma once
 #include <vestige/math.h>
 

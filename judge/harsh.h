@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Numbers, directions and parameters that break formulas: the ends of intervals, grazing angles,
-// and settings that nobody would write but the schema allows.
+// and unusual settings that the schema allows.
 #pragma once
 #include <algorithm>
 #include <cctype>
@@ -45,7 +45,7 @@ inline bool isColour(Rgb c) { return isFinite(c) && c.r >= 0 && c.g >= 0 && c.b 
 inline bool isDensity(Real x) { return std::isfinite(x) && x >= 0; }
 inline bool isUnit(Vec3 d) { return std::abs(length(d) - 1) < Real(1e-3); }
 
-/// Some value that the row takes; kind none for files, blocks and texts.
+/// A value that the row accepts; kind none for files, blocks and texts.
 inline Value harshValue(const Parameter& row, Random& r) {
   const auto within = [&](double low, double high) {
     low = std::max(low, row.low), high = std::min(high, row.high);
@@ -73,7 +73,7 @@ inline Value harshValue(const Parameter& row, Random& r) {
   }
 }
 
-/// As the scene language writes it. `name`: of the row.
+/// A setting in the scene language. `name`: name of the row.
 inline void writeValue(std::ostream& text, const std::string& name, const Value& value) {
   const auto isWord = [](const std::string& t) {
     return !t.empty() && std::all_of(t.begin(), t.end(), [](char c) {
@@ -92,7 +92,8 @@ inline void writeValue(std::ostream& text, const std::string& name, const Value&
     list(3);
   }
   if (value.kind == Value::Kind::text && isWord(value.text)) text << value.text.str();
-  if (value.kind == Value::Kind::text && !isWord(value.text)) text << '"' << value.text.str() << '"';
+  if (value.kind == Value::Kind::text && !isWord(value.text))
+    text << '"' << value.text.str() << '"';
   if (value.kind != Value::Kind::block) return;
   if (value.block->plugin != name) text << value.block->plugin << " ";
   text << "{";

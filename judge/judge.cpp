@@ -12,18 +12,18 @@
 namespace vestige::judge {
 namespace {
 
-/// A promise that is kept or not, at no particular event.
+/// A promise that is independent of events.
 void see(Finding& f, bool kept, const std::string& what) {
   f.worst.see(kept ? 0 : HUGE_VAL, [&] { return Event{what, "", what}; });
 }
 
-/// Rows have names of their own, documentation, and defaults within their ranges.
+/// Rows have unique names, documentation, and defaults within their ranges.
 Finding schemaIsSound(const Plugin& plugin) {
   Finding f{"the schema is sound", "schema()"};
   const Schema& schema = *plugin.schema;
   see(f, schema.kind == plugin.kind && schema.name == plugin.name,
-      "it calls itself " + schema.kind + " '" + schema.name + "', the library " + plugin.kind +
-          " '" + plugin.name + "'");
+      "it is named " + schema.kind + " '" + schema.name + "', the library " + plugin.kind + " '" +
+          plugin.name + "'");
   see(f, int(schema.inputs.size()) + 2 <= kMaxInputs,
       "it declares more inputs than " + std::to_string(kMaxInputs - 2));
   std::set<std::string> names;
@@ -39,8 +39,8 @@ Finding schemaIsSound(const Plugin& plugin) {
   return f;
 }
 
-/// Whether it can be created with its defaults. Rows that a scene must give have none: then it may
-/// refuse, in words.
+/// Whether the plugin can be created with its defaults. If required rows have none, it may refuse
+/// with a message.
 template <class Interface>
 Finding isCreated(const Plugin& plugin) {
   Finding f{"it is created with its defaults", "the constructor"};
@@ -68,8 +68,8 @@ void addSentence(std::string& text, const std::string& more) {
   text += (text.empty() || more.empty() ? "" : "\n") + more;
 }
 
-/// Drops what would judge the engine's differences, which stand in where a plugin has no
-/// derivatives: they err on the seams of a map, and slowly.
+/// Drops findings about the engine's finite differences, which replace missing derivatives: they
+/// are slow, and wrong at the seams of a map.
 void dropDifferences(Judgement& j, std::uint32_t lacks) {
   const auto isDropped = [&](const Verdict& v) {
     const auto names = [&](const char* word) { return v.test.find(word) != v.test.npos; };
@@ -84,13 +84,13 @@ void dropDifferences(Judgement& j, std::uint32_t lacks) {
   };
   std::erase_if(j.verdicts, isDropped);
   if (lacks & kLacksDerivatives)
-    addSentence(j.unchecked,
-                "it leaves derivatives to the engine's finite differences: those were not judged");
+    addSentence(
+        j.unchecked,
+        "the plugin leaves derivatives to the engine's finite differences: they were not judged");
   if (lacks & kLacksEmission)
-    addSentence(j.unchecked,
-                "it has no emit(): integrators that start at lights leave this light out");
+    addSentence(j.unchecked, "the light has no emit(): integrators that start at lights omit it");
   if (lacks & kLacksPdf)
-    addSentence(j.unchecked, "it has no pdf(): the density of its rays was not judged");
+    addSentence(j.unchecked, "the camera has no pdf(): the density of its rays was not judged");
 }
 
 /// Parameters that were not tried, for the user; "": none.
@@ -107,7 +107,8 @@ std::string paramsOf(const Schema& schema) {
 
 template <class Cases>
 std::string noCases(const Cases& cases) {
-  return cases.empty() ? "it refused all parameters that were tried: no method was judged" : "";
+  return cases.empty() ? "the plugin refused all parameters that were tried: no method was judged"
+                       : "";
 }
 
 void judgeByKind(const Plugin& plugin, const Effort& effort, Judgement& j) {

@@ -11,14 +11,14 @@
 
 namespace vestige::judge {
 
-/// One library, with several sets of parameters of its schema. Kinds that have no tests of their
-/// own are created with their defaults: Judgement::unchecked says what that leaves open.
+/// One library, with several sets of parameters of its schema. Kinds without tests are only created
+/// with their defaults: Judgement::unchecked lists what was not tested.
 Judgement judgePlugin(const Plugin& plugin, const Effort& effort);
 
-/// `schema` tells which inputs a texture may take out of their range; null: none. The same brdf
-/// under several sets of parameters.
+/// Judges one BRDF with several sets of parameters. `schema`: inputs that a texture may drive out
+/// of their range; null: none.
 Judgement judgeBrdf(const BrdfCases& cases, const Schema* schema, const Effort& effort);
-/// The same light, or camera, under several sets of parameters.
+/// Judges one light, or camera, with several sets of parameters.
 Judgement judgeLight(const LightCases& cases, const Effort& effort);
 Judgement judgeCamera(const CameraCases& cases, const Effort& effort);
 

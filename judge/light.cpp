@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// All tests of a light, and who is to blame.
+// All tests of a light, and the method at fault.
 #include "judge/judge.h"
 
 namespace vestige::judge {
 namespace {
 
-/// Of two densities that agree with each other but not with the map, or do not agree.
+/// The method at fault if two densities agree with each other but not with the map, or disagree.
 std::string culpritOfDensity(const LightDensityFindings& d, const Finding& du) {
   if (d.distribution.passed() && d.mass.passed()) return "";
   return d.ownPdf.passed() && !du.passed() ? "sample()" : "pdf()";
@@ -18,7 +18,7 @@ Judgement judgeLight(const LightCases& cases, const Effort& e) {
   const Finding area = lightAreaIsInverseDensity(cases, e), du = lightDuIsTheDerivative(cases, e);
   const FluxFindings flux = fluxAgrees(cases, e);
   const std::string map = culpritOfDensity(density, du);
-  // Of the three witnesses of the flux the one that stands alone.
+  // Of three estimates of the flux, the one that contradicts the other two is at fault.
   std::string power = flux.arriving.passed() ? "power()" : "emit()";
   std::string arriving = flux.power.passed() ? "sample()" : "emit()";
   if (!flux.power.passed() && !flux.arriving.passed() && !flux.powerIsArriving) power = "emit()";

@@ -5,7 +5,7 @@
 namespace vestige::judge {
 namespace {
 
-/// Density of a direction at infinity, as a ray that leaves the scene asks for it.
+/// Density of a direction at infinity, as for a ray that leaves the scene.
 double densityTowards(const Light& light, const Receiver& from, Vec3 d) {
   return double(light.pdf(from, {from.position, d, kInfinity, {}, {}, {}}));
 }
@@ -16,7 +16,7 @@ std::vector<double> overSurface(const Light& light, const Receiver& from,
                                 const SpherePartition& cells) {
   std::vector<double> sums(cells.cells(), 0);
   const TriangleMesh& mesh = *light.geometry();
-  // As many points in all, however many triangles.
+  // The total number of points does not depend on the number of triangles.
   const int fine = std::max(16, int(400 / std::sqrt(double(mesh.triangles.size()) / 2)));
   for (const auto& t : mesh.triangles) {
     const Vec3 a = mesh.positions[t[0]], b = mesh.positions[t[1]] - a, c = mesh.positions[t[2]] - a;
@@ -62,7 +62,7 @@ void seeDistribution(LightDensityFindings& f, const LightCase& c, const Receiver
   f.distribution.worst.see(std::log(std::max(p, 1e-300)) / std::log(level), [&] {
     std::ostringstream text;
     text.precision(3);
-    text << "sample() lands " << ratio << " times as often as pdf() says (p-value " << p << ")";
+    text << "sample() lands " << ratio << " times as often as pdf() predicts (p-value " << p << ")";
     return lightEvent(c, from, {}, text.str());
   });
   const double deviation = std::sqrt(share * (1 - share) / n) + 2e-3;
@@ -74,10 +74,10 @@ void seeDistribution(LightDensityFindings& f, const LightCase& c, const Receiver
 }  // namespace
 
 LightDensityFindings lightSamplesFollowPdf(const LightCases& cases, const Effort& effort) {
-  LightDensityFindings f{{"samples are distributed as pdf() says", "pdf()"},
+  LightDensityFindings f{{"samples are distributed as pdf() predicts", "pdf()"},
                          {"pdf() integrates to 1 - P(nullopt)", "pdf()"},
-                         {"a sample's pdf is what pdf() says", "sample().pdf"},
-                         {"a sample's radiance is what eval() says", "eval()"}};
+                         {"a sample's pdf equals pdf()", "sample().pdf"},
+                         {"a sample's radiance equals eval()", "eval()"}};
   constexpr int kPlaces = 4;
   const double level = sidakLevel(effort.falseAlarm, cases.size() * kPlaces);
   Random r(effort.seed + 1);
@@ -101,7 +101,7 @@ LightDensityFindings lightSamplesFollowPdf(const LightCases& cases, const Effort
           return lightEvent(
               c, from, u,
               told("eval() gives", double(maxComponent(found)), double(maxComponent(radiance))) +
-                  " as sample() says");
+                  " as in sample()");
         });
   });
   return f;

@@ -5,7 +5,8 @@
 namespace vestige::judge {
 namespace {
 
-/// The borders of the square and the rim of a concentric disk, where derivatives have no bound.
+/// Whether a point is near the border of the square or the rim of a concentric disk, where
+/// derivatives have no bound.
 bool isSmoothAt(Vec2 u) {
   return differsSmoothly(u, Real(0.025)) &&
          std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1)) < Real(0.85);
@@ -38,7 +39,7 @@ Finding lightAreaIsInverseDensity(const LightCases& cases, const Effort& effort)
 }
 
 Finding lightDuIsTheDerivative(const LightCases& cases, const Effort& effort) {
-  Finding f{"du is the derivative of sample() by its numbers", "sampleDerivatives().du"};
+  Finding f{"du is the derivative of sample() by its random numbers", "sampleDerivatives().du"};
   forLightEvents(cases, effort, [&](const LightCase& c, const Receiver& from, Vec2 u, Random&) {
     if (!c.light->sample(from, u) || !isSmoothAt(u)) return;
     const LightJacobian j = c.light->sampleDerivatives(from, u);

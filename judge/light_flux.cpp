@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One flux in three ways: the mean of emit(), power(), and what sample() brings to a sphere that
-// every particle has to cross.
+// Three estimates of the flux: the mean of emit(), power(), and the irradiance of sample() on a
+// sphere that every particle crosses.
 #include <vestige/tools/sampling.h>
 
 #include "judge/light_sphere.h"
@@ -48,7 +48,7 @@ Octants arriving(const Light& light, const LightSphere& s, int n, Random& r, Mea
 
 FluxFindings fluxAgrees(const LightCases& cases, const Effort& effort) {
   FluxFindings f{{"the mean power of emit() is power()", "power()"},
-                 {"emit() brings to a sphere what sample() says", "emit()"},
+                 {"emit() brings to a sphere the irradiance of sample()", "emit()"},
                  true};
   Random r(effort.seed + 4);
   for (const LightCase& c : cases) {
@@ -58,7 +58,7 @@ FluxFindings fluxAgrees(const LightCases& cases, const Effort& effort) {
     const Octants a = emitted(*c.light, s, effort.samples, r, out);
     const Octants b = arriving(*c.light, s, effort.samples, r, in);
     const double power = double(luminance(c.light->power()));
-    // power() is an estimate; 2 % off changes nothing that a picture shows.
+    // power() is an estimate; an error of 2 % has no visible effect.
     const double slack = 0.02 * std::abs(power);
     const Mean& flux = c.emits ? out : in;
     f.power.worst.see(std::abs(flux.value() - power) / (5 * flux.error() + slack), [&] {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wherever one stands and whatever numbers come, no light answers with NaN, infinity or a negative
-// density.
+// No light may return NaN, infinity or a negative density, for any receiver and any random numbers.
 #include "judge/harsh.h"
 #include "judge/light_tests.h"
 
@@ -11,7 +10,7 @@ struct Broken {
   const char *method, *what;
 };
 
-/// A point that looks: anywhere near, far away, or at some height above a point of the light.
+/// A receiver: near, far away, or at some height above a point of the light.
 Vec3 lookout(const Light& light, Random& r) {
   const Vec3 anywhere = r.point(-3, 3);
   const Real kind = r.number();

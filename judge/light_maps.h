@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light draws, as maps from one number that moves: for differences.
+// The samples of a light as maps from one variable, for finite differences.
 #pragma once
 #include "judge/light_tests.h"
 
@@ -32,8 +32,8 @@ inline std::optional<Vec3> movedDirection(const Light& light, EmissionNumbers u,
   const auto p = movedParticle(light, u, k, h);
   return p ? std::optional(p->direction) : std::nullopt;
 }
-/// A disk that turns with the direction is free of spin in the derivative: the spin of the frame
-/// that sampling builds is taken out. `along` is the direction where nothing is moved.
+/// The derivative is defined without the spin of a disk that turns with the direction, so the spin
+/// of the sampling frame is removed. `along`: the direction at 0.
 inline std::optional<Vec3> movedOrigin(const Light& light, EmissionNumbers u, Vec3 along, int k,
                                        double h) {
   const auto p = movedParticle(light, u, k, h);

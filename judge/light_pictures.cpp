@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light from a place where it is seen well, and the particles that it sends.
+// Pictures of a light from a suitable receiver, and of its particles.
 #include "judge/light_maps.h"
 #include "judge/light_sphere.h"
 #include "judge/pictures.h"
@@ -19,7 +19,7 @@ std::string told(Vec3 v) {
   return text.str();
 }
 
-/// Of some places that which the light's directions are spread from most evenly.
+/// The receiver among several candidates whose directions to the light are spread most evenly.
 Vec3 placeToLook(const Light& light, unsigned seed) {
   Random r(seed);
   Vec3 best;
@@ -34,7 +34,7 @@ Vec3 placeToLook(const Light& light, unsigned seed) {
   return best;
 }
 
-/// Where a ray meets the light's surface, or leaves the scene.
+/// The hit of a ray with the light's surface, or at infinity.
 std::optional<LightHit> hitOf(const Light& light, Vec3 from, Vec3 d) {
   if (light.traits().isInfinite) return LightHit{from, d, kInfinity, {}, {}, {}};
   const TriangleMesh* mesh = light.geometry();
@@ -73,7 +73,7 @@ Picture density(const LightCase& c, Vec3 from, const Effort& effort) {
               kAround};
 }
 
-/// Flux through a sphere, W/m^2: what particles bring, and what sample() says.
+/// Flux through a sphere, W/m^2: of particles, and of sample().
 Picture flux(const LightCase& c, const Effort& effort) {
   constexpr int kParticles = 1 << 20, kPerPoint = 16;
   Random r(effort.seed);
@@ -101,7 +101,7 @@ Picture flux(const LightCase& c, const Effort& effort) {
               withUnit(white, " W/m^2") + "." + kAround};
 }
 
-/// Error of du at numbers u, in units of what is allowed.
+/// Error of du at random numbers u, in units of the tolerance.
 double errorOfDu(const Light& light, Vec3 from, Vec2 u) {
   if (!light.sample({from}, u)) return kNothingSaid;
   const Mat3x2 du = light.sampleDerivatives({from}, u).du;
@@ -113,7 +113,7 @@ double errorOfDu(const Light& light, Vec3 from, Vec2 u) {
   return error;
 }
 
-/// Error of a particle's origin and direction by its numbers k and k + 1.
+/// Error of the derivatives of a particle's origin and direction by its random numbers k and k + 1.
 double errorOfParticle(const Light& light, EmissionNumbers u, int first) {
   const auto p = light.emit(u);
   if (!p) return kNothingSaid;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every light has to keep of the contract in light.h. As with BRDFs, sample(), pdf() and
-// sampleDerivatives() are three statements about one map; emit(), power() and the irradiance that
-// sample() gives are three about one flux.
+// Tests of the contract in light.h. As for BRDFs, sample(), pdf() and sampleDerivatives() are three
+// statements about one map; emit(), power() and the irradiance by sample() are three statements
+// about one flux.
 #pragma once
 #include <vestige/light.h>
 
@@ -13,7 +13,7 @@
 
 namespace vestige::judge {
 
-/// A light in the scene that kLightScene tells it of.
+/// A light in a scene with the bounds kLightScene.
 struct LightCase {
   std::string title;  ///< "light spot falloff 40"
   std::shared_ptr<const Light> light;
@@ -28,7 +28,7 @@ LightCases lightCases(const Plugin& plugin, int sets, unsigned seed, TriedRows* 
 
 Event lightEvent(const LightCase& c, const Receiver& from, Vec2 u, const std::string& what);
 
-/// A point that looks: on a surface that faces some way, or in a volume.
+/// A receiver on a surface with some normal, or in a volume.
 inline Receiver receiverAt(Vec3 position, int event) {
   if (event % 3 == 0) return {position};
   const double a = 2.4 * event, z = 1 - 2 * std::fmod(0.618 * event, 1.0), s = std::sqrt(1 - z * z);
@@ -62,8 +62,8 @@ Finding emissionIsTheDerivative(const LightCases& cases, const Effort& effort);
 // light_flux.cpp
 struct FluxFindings {
   Finding power;         ///< power() is the mean power of particles
-  Finding arriving;      ///< so is what sample() gives on a sphere, octant by octant
-  bool powerIsArriving;  ///< power() is what sample() gives, whatever emit() says
+  Finding arriving;      ///< power of emit() = irradiance of sample() on a sphere, octant by octant
+  bool powerIsArriving;  ///< power() agrees with sample(), independent of emit()
 };
 FluxFindings fluxAgrees(const LightCases& cases, const Effort& effort);
 

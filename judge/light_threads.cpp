@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light asked again, in another order, by many threads at once; and what a call takes.
+// Repeated calls of a light, in another order and from many threads at once; and the time of a
+// call.
 #include "judge/light_tests.h"
 #include "judge/same_answers.h"
 #include "judge/timing.h"
@@ -52,7 +53,7 @@ std::vector<Question> questions(const LightCases& cases, int samples, unsigned s
   return list;
 }
 
-/// What sample() found, for the methods that look at it again.
+/// Results of sample(), as arguments of other methods.
 struct Seen {
   const Light* light;
   Receiver from;

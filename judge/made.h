@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Objects of plugins without a scene: made with the values a test chooses, from a host that finds
+// Creates objects of plugins without a scene, with values chosen by a test and a host that finds
 // every file.
 #pragma once
 #include <vestige/host.h>
@@ -62,7 +62,7 @@ class SmallTexture final : public Texture {
   Wrap wrapU_, wrapV_;
 };
 
-/// Diffuse, reflecting a half: what a BRDF that holds others holds here.
+/// Diffuse BRDF of albedo 0.5: the nested BRDF of any BRDF that needs one.
 class PlainDiffuse final : public Brdf {
  public:
   ScatterValue evaluate(const ScatterPoint&, Vec3 toNext) const noexcept override {
@@ -128,7 +128,7 @@ std::shared_ptr<Interface> make(const Plugin& plugin, const Settings& settings =
   return make<Interface>(plugin, settings, host, toWorld);
 }
 
-/// The numbers that a BRDF finds in its Inputs: settings and defaults, zero where there is neither.
+/// The inputs of a BRDF: settings and defaults, zero where there is neither.
 inline InputBuffer inputsFor(const Schema& schema, const Settings& settings) {
   InputBuffer buffer = {};
   const std::vector<Value> values = rowValues(schema.inputs, settings);

@@ -9,7 +9,7 @@
 namespace vestige::judge {
 namespace {
 
-/// The first parameters that the plugin takes, as plain as can be.
+/// The first parameters that the plugin accepts, with plain values preferred.
 template <class Interface>
 std::shared_ptr<Interface> shown(const Plugin& plugin, unsigned seed, Settings& s) {
   Random r(seed);
@@ -49,9 +49,10 @@ std::string leftOutPictures(const Plugin& plugin, const std::vector<Picture>& pi
                        [&](const Picture& p) { return p.file == file; });
   };
   const bool isTried = plugin.kind == "brdf" || plugin.kind == "light" || plugin.kind == "camera";
-  if (!isTried) return "no pictures: there are none of a " + plugin.kind;
+  if (!isTried) return "no pictures exist for a " + plugin.kind;
   if (pictures.empty())
-    return "no pictures: it refused all parameters that were tried, or shows nothing";
+    return "no pictures: the plugin refused all parameters that were tried, or all samples are "
+           "empty";
   if (plugin.kind != "light") return "";
   std::string text;
   if (!has("density.png"))

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the judge saw, as pictures: of one set of parameters, seen from one place.
+// Pictures of a plugin's samples and errors, for one set of parameters and one receiver.
 //
 //     density.png     samples beside the density that they are said to have
-//     flux.png        what a light's particles bring beside what sample() says
-//     derivative.png  over the unit square of numbers, or over a film: how far derivatives are from
+//     flux.png flux of a light's particles beside that of sample() derivative.png over the unit
+//     square of numbers, or over a film: how far derivatives are from
 //                     differences
 //     emission.png    the same for a light's particles
 #pragma once
@@ -15,10 +15,10 @@
 
 namespace vestige::judge {
 
-/// None for kinds that have no tests, and where the plugin refuses what it is given.
+/// No pictures for kinds without tests, or if the plugin refuses all parameters.
 std::vector<Picture> picturesOf(const Plugin& plugin, const Effort& effort);
 
-/// Which of the pictures of its kind are not there, and why; "": all are.
+/// The pictures of its kind that are missing, with the reason; "": none.
 std::string leftOutPictures(const Plugin& plugin, const std::vector<Picture>& pictures);
 
 std::vector<Picture> brdfPictures(const BrdfCase& c, const Effort& effort);

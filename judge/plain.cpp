@@ -18,7 +18,7 @@ Value plainVector(const Parameter& row, int size, Random& r) {
   return v;
 }
 
-/// Over a range that one can survey; else about the default, or about 1.
+/// Over the range if it is short; else around the default, or around 1.
 Value plainNumber(const Parameter& row, Random& r) {
   if (row.high - row.low <= 1000) return valueWithin(row, 0.1 + 0.8 * double(r.number()));
   const bool hasSize = row.initial.kind == Value::Kind::number && row.initial.v[0] != 0;

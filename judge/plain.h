@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values that nobody would wonder at, for the rows of a light's or camera's schema.
+// Plausible values for the rows of a light's or camera's schema.
 #pragma once
 #include "judge/differences.h"
 #include "judge/made.h"
@@ -17,7 +17,7 @@ Settings plainSettings(const Schema& schema, Random& r);
 /// picture is made with. Without images: those that are required only.
 Settings shownSettings(const Schema& schema, Random& r, bool withImage = true);
 
-/// Whether rows were given a value that the plugin took.
+/// Records which rows had a value that the plugin accepted.
 class TriedRows {
  public:
   void offer(const Settings& s) {
@@ -43,7 +43,7 @@ class TriedRows {
   std::map<std::string, bool> taken_;
 };
 
-/// The rows that plainValue() has nothing for, "color_space (text), ..."; "": none.
+/// The rows without a value from plainValue(), "color_space (text), ..."; "": none.
 std::string rowsLeftAlone(const Schema& schema);
 
 }  // namespace vestige::judge

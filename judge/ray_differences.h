@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derivatives of rays, of particles and of cameras, against differences.
+// Compares derivatives of particles' and cameras' rays with finite differences.
 #pragma once
 #include <array>
 
@@ -17,14 +17,14 @@ inline std::string toldVectors(const std::string& what, Vec3 found, Vec3 expecte
   return text.str();
 }
 
-/// What a difference gave in place of what was found, and the error in units of what is allowed.
+/// Result of a finite difference, and the error of the derivative in units of the tolerance.
 struct Compared {
   Vec3 seen;
   double error;
 };
 
-/// `found` against differences of a map from a Real to an optional Vec3 of size `noise`; nullopt
-/// where they say nothing.
+/// Compares `found` with differences of a map from a Real to an optional Vec3 of magnitude `noise`;
+/// nullopt if they are inconclusive.
 template <class Map>
 std::optional<Compared> compared(const Map& map, Vec3 found, double noise) {
   const double allowed = kRayTolerance * std::max({1.0, noise, sizeOf(found)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Methods without hidden state: whoever asks, and whenever, the answer is the same to the bit.
+// Tests that methods have no hidden state: repeated calls return the same bits.
 #pragma once
 #include <array>
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace vestige::judge {
 
-/// Numbers of an answer, compared by their bits: NaN is like itself.
+/// Numbers of a result, compared by their bits: NaN equals itself.
 class Bits {
  public:
   void add(Real x) {
@@ -32,23 +32,23 @@ class Bits {
 
 inline constexpr int kThreads = 4, kRounds = 3;
 
-/// Asks `ask(i, method)` of all questions in order, then backwards with the methods reversed, then
-/// by many threads at once. `describe(i, what)` makes an event of a question.
+/// Calls ask(i, method) for all questions in order, then backwards with the methods reversed, then
+/// from many threads at once. `describe(i, what)` makes an event of a question.
 template <class Ask, class Describe>
 Finding sameAnswers(std::size_t questions, std::span<const char* const> methods, const Ask& ask,
                     const Describe& describe) {
-  Finding f{"the same answers again, from many threads", "all"};
+  Finding f{"repeated calls and threads get the same results", "all"};
   const std::size_t n = methods.size(), all = questions * n;
   std::vector<Bits> first(all);
   for (std::size_t k = 0; k < all; ++k) first[k] = ask(k / n, k % n);
   const auto see = [&](std::size_t k, bool same, const char* when) {
     f.worst.see(same ? 0 : 2, [&] {
       f.method = methods[k % n];
-      return describe(k / n, f.method + " answers otherwise " + when);
+      return describe(k / n, f.method + " returns another result " + when);
     });
   };
   for (std::size_t k = all; k-- > 0;)
-    see(k, ask(k / n, k % n) == first[k], "when asked again in another order");
+    see(k, ask(k / n, k % n) == first[k], "when called again in another order");
   std::vector<std::atomic<bool>> differs(all);
   const auto work = [&](std::size_t thread) {
     for (int round = 0; round < kRounds; ++round)
@@ -60,7 +60,7 @@ Finding sameAnswers(std::size_t questions, std::span<const char* const> methods,
   std::vector<std::thread> threads;
   for (std::size_t t = 0; t < kThreads; ++t) threads.emplace_back(work, t);
   for (std::thread& t : threads) t.join();
-  for (std::size_t k = 0; k < all; ++k) see(k, !differs[k], "while other threads ask as well");
+  for (std::size_t k = 0; k < all; ++k) see(k, !differs[k], "while other threads call it");
   return f;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Is a sampler's density the one it claims? Pearson's chi-square test over the sphere, with bins
-// that find narrow lobes by themselves.
+// Tests whether samples have a given density: Pearson's chi-square test over the sphere, with
+// adaptive bins for narrow lobes.
 //
 // [PTVF07] Press et al. Numerical recipes, 3rd ed. 2007. 6.2 (incomplete gamma), 14.3 (chi-square)
 #pragma once
@@ -158,7 +158,7 @@ class SpherePartition {
     grow(child, below, level + 1), grow(child + 1, above, level + 1);
   }
 
-  /// Where to cut so that both halves get samples; false where all are alike along the axis.
+  /// The cut that gives both halves samples; false if all samples are equal along the axis.
   static bool medianOf(std::vector<Point>& points, std::size_t axis, double& at) {
     const auto less = [&](const Point& a, const Point& b) { return a[axis] < b[axis]; };
     std::sort(points.begin(), points.end(), less);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a call of a method takes.
+// Time of a call of a method.
 #pragma once
 #include <vestige/math.h>
 
@@ -8,7 +8,8 @@
 
 namespace vestige::judge {
 
-/// Nanoseconds a call of `call(question)`, which gives a number of its answer; 0 without questions.
+/// Nanoseconds per call of `call(question)`, which returns a number from its result; 0 without
+/// questions.
 template <class Question, class Call>
 double nanoseconds(const std::vector<Question>& questions, const Call& call) {
   using Clock = std::chrono::steady_clock;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finite differences that know when they say nothing, and lobes freed of their frame's spin.
+// Finite differences with a test of their validity, and lobes without their frame's spin.
 #pragma once
 #include <vestige/brdf.h>
 
@@ -31,9 +31,9 @@ bool isBend(const Map& map, double h, double tolerance) {
 }
 
 /// The same as fivePoints(), or nullopt where it cannot be trusted to `tolerance`: a smaller step
-/// gives another answer (a curve too sharp, a seam, the edge of total reflection), or rounding of
-/// values of size `noise` would drown it. Two smaller steps are asked: across an edge two answers
-/// may be alike by chance, which 10^5 events find.
+/// gives another result (a curve too sharp, a seam, the edge of total reflection), or rounding of
+/// values of size `noise` would drown it. Two smaller steps are tried: across an edge two results
+/// may agree by chance, which does happen in 10^5 events.
 template <class Map>
 auto trustedDifference(const Map& map, double h, double tolerance, double noise = 1)
     -> decltype(map(0.0)) {
@@ -47,9 +47,9 @@ auto trustedDifference(const Map& map, double h, double tolerance, double noise 
   return narrow;
 }
 
-/// Whether the slope that a wide step gave is a mean over fine bends (the knots of a table): then
-/// smaller steps, down to where rounding drowns them, give another one. A method that tells the
-/// slope of the piece it is on is right, and differences cannot show it.
+/// Whether the slope from a wide step is a mean over fine bends (the knots of a table): smaller
+/// steps then give another one. A method that returns the slope of its own piece is right, but
+/// differences cannot confirm it.
 template <class Map, class Slope>
 bool hasFineBends(const Map& map, const Slope& seen, double h, double tolerance, double noise) {
   constexpr double epsilon = double(std::numeric_limits<Real>::epsilon());

@@ -23,8 +23,8 @@ Verdict verdictOf(const Finding& f, const std::string& culprit) {
   if (!v.passed)
     v.sentence = v.method + " is wrong: " + e.where + (e.where.empty() ? "" : ", ") + e.what;
   else if (f.asked > 0 && f.judged <= f.asked / 3)
-    v.sentence = "differences say something at " + std::to_string(f.judged) + " of " +
-                 std::to_string(f.asked) + " events only";
+    v.sentence = "finite differences are conclusive at only " + std::to_string(f.judged) + " of " +
+                 std::to_string(f.asked) + " events";
   return v;
 }
 

@@ -38,7 +38,7 @@ inline std::string told(const char* what, double value, double expected) {
 
 /// One event in words.
 struct Event {
-  std::string line;   ///< all that it takes to do it again, with all digits
+  std::string line;   ///< everything needed to reproduce it, with all digits
   std::string where;  ///< for people: "with { alpha 0.3 } and toPrev 40 degrees from the normal"
   std::string what;   ///< what was found there, and expected
 };
@@ -46,7 +46,7 @@ inline std::ostream& operator<<(std::ostream& o, const Event& e) { return o << e
 
 /// The largest error of a test and the event that made it.
 struct WorstEvent {
-  double error = 0;  ///< in units of what is allowed: above 1 is a failure
+  double error = 0;  ///< in units of the tolerance: above 1 is a failure
   Event event;
   int events = 0;
 

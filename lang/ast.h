@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An expression as a tree. Names stand in it by the value they had when they were read, as POV-Ray
-// has it: a directive between two operands may change a name without changing what was read.
+// Expression trees. A name is replaced by its value when it is read, as in POV-Ray: a directive
+// between two operands may change the name without changing the tree.
 #pragma once
 #include <memory>
 #include <string>
@@ -33,7 +33,7 @@ struct Expr {
   };
   Kind kind = Kind::constant;
   Span span;
-  Span wordSpan;  ///< of the operator, the member, the function's name
+  Span wordSpan;  ///< span of the operator, the member or the function's name
   Datum value;
   std::string word;
   int slot = 0;
@@ -42,18 +42,19 @@ struct Expr {
   std::vector<ExprPtr> args;
 
   bool isConstant() const { return kind == Kind::constant; }
-  /// Can operators follow? Not after a string, a block, a transform, a bare array.
+  /// Whether an operator can follow: not after a string, a block, a transform or a bare array.
   bool mayCount() const {
     return !isConstant() || isBroken(value) || std::holds_alternative<Numbers>(value);
   }
 };
 
-/// `function(a, b) { a*b + 1 }`, or, of three numbers, `function { transform { T } }`.
+/// `function(a, b) { a*b + 1 }`, or `function { transform { T } }` with three parameters.
 struct Function {
   std::vector<const std::string*> parameters;
-  ExprPtr body;                                                        ///< null: `transform`
-  Affine transform;                                                    ///< gives a vector
-  mutable std::shared_ptr<const vestige::Function> program = nullptr;  ///< once a block takes it
+  ExprPtr body;      ///< null: `transform`
+  Affine transform;  ///< gives a vector
+  mutable std::shared_ptr<const vestige::Function> program =
+      nullptr;  ///< created when a block uses the function
 };
 
 }  // namespace vestige::lang

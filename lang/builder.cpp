@@ -12,7 +12,8 @@ bool holdsBlocks(const Value& value) {
   return value.block || (value.list && value.list->holdsBlocks);
 }
 
-/// Copies of a declared block share what its settings hold, so a moved block is a new one.
+/// Copies of a declared block share the blocks in its settings, so a transformed block must be a
+/// new one.
 void moveValue(Value& value, const Affine& t) {
   if (value.block) {
     auto moved = std::make_shared<Block>(*value.block);
@@ -45,7 +46,7 @@ std::int64_t measureValue(const Value& value, int level, int& depth) {
   return n;
 }
 
-/// Blocks in a block, itself included; `depth` becomes the longest way down.
+/// Number of blocks in a block, itself included; `depth` receives its depth.
 std::int64_t measure(const Block& block, int level, int& depth) {
   depth = std::max(depth, level);
   std::int64_t n = 1;
@@ -101,7 +102,7 @@ bool BlockBuilder::mayContain(const std::string& kind) const {
 void BlockBuilder::set(const Parameter& row, const Span& nameSpan, const Datum& datum,
                        const Span& span) {
   auto value = convert(context_, row, datum, span);
-  if (!value) value = Value{};  // given, though not well: not missing
+  if (!value) value = Value{};  // given with an error: not missing
   value->span = span;
   store(row, nameSpan, std::move(*value));
 }

@@ -22,7 +22,7 @@ std::string plural(std::size_t n) {
   return std::to_string(n) + (n == 1 ? " argument" : " arguments");
 }
 
-/// The letter that argument i has to fit.
+/// The signature's letter for argument i.
 char letterOf(const std::string& letters, std::size_t i) {
   return letters[std::min(i, letters.size() - 1)];
 }

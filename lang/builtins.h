@@ -9,7 +9,7 @@
 
 namespace vestige::lang {
 
-/// What a built-in gets: arguments that fit its signature.
+/// The arguments of a call, checked against the signature.
 struct Call {
   Context& context;
   Span span;  ///< of the whole call
@@ -19,22 +19,23 @@ struct Call {
   double number(std::size_t i) const { return std::get<Numbers>(args[i]).at(0); }
   Numbers vector(std::size_t i) const { return std::get<Numbers>(args[i]); }
   const std::string& text(std::size_t i) const { return *std::get<TextPtr>(args[i]); }
-  /// An integer in the reach of int; POV-Ray truncates.
+  /// An integer within the range of int, truncated as in POV-Ray.
   int integer(std::size_t i) const;
-  Datum complain(std::size_t i, const std::string& message) const;  ///< gives nothing back
+  /// Reports an error in argument i; returns std::monostate.
+  Datum complain(std::size_t i, const std::string& message) const;
   void warn(std::size_t i, const std::string& message) const;
 };
 
 struct Builtin {
   const char* name;
-  /// One letter an argument: n number, v vector (a number is promoted), s string, a array.
-  /// Those after '|' may be left out; '+' repeats the last one any number of times.
+  /// One letter per argument: n number, v vector (a number is promoted), s string, a array. Those
+  /// after '|' may be left out; '+' repeats the last one any number of times.
   const char* signature;
   Datum (*apply)(const Call&);
   bool isPure = true;  ///< the same arguments give the same result
 };
 
-/// Or null.
+/// The built-in of that name, or null.
 const Builtin* findBuiltin(const std::string& name);
 std::vector<std::string> builtinNames();
 /// Checks the arguments against the signature and calls.

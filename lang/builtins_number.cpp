@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of numbers. Angles in radians; results as POV-Ray 3.7 gives them, tried with it.
+// Functions of numbers. Angles in radians; results equal those of POV-Ray 3.7, compared with it.
 #include <cmath>
 
 #include "lang/builtins.h"
@@ -80,7 +80,7 @@ Datum bitwise(const Call& c) {
   return Numbers(bits);
 }
 
-/// Streams are numbers: seed() gives the next one.
+/// Streams are numbered: seed() returns the next number.
 Datum seed(const Call& c) {
   c.context.streams.push_back(std::uint32_t(c.integer(0)));
   return Numbers(double(c.context.streams.size() - 1));

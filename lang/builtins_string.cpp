@@ -12,9 +12,9 @@ namespace {
 /// Widest field and most digits that str() lays out: a double has no more than 1074 of them.
 constexpr int kWidest = 1100;
 
-/// Shorter strings are not counted; array elements and names bound them.
+/// Shorter strings are not counted: the limits on array elements and names bound them.
 constexpr std::size_t kShortText = 256;
-/// All strings together may take this many times the length of the longest one that is allowed.
+/// Limit of all strings together, as a multiple of the length limit of one string.
 constexpr std::size_t kLongestTexts = 256;
 
 /// C's "%*.*f": negative width fills with zeros, negative precision means 6.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all parts of the reader share.
+// State shared by all parts of the parser.
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -13,8 +13,8 @@
 
 namespace vestige::lang {
 
-/// A level of braces or parentheses takes about 3 kB of the stack, which has 8 MB on Linux; twice
-/// that where a sanitizer looks on.
+/// A level of braces or parentheses takes about 3 kB of the stack of 8 MB (on Linux), twice that
+/// with a sanitizer.
 inline constexpr int kDeepestNesting = 1000;
 
 struct Context {
@@ -26,24 +26,25 @@ struct Context {
   Names names;
   Reporter reporter;
   Symbols symbols;
-  double version = 3.7;                ///< #version only sets what `version` answers
+  double version = 3.7;  ///< set by #version, returned by `version`; has no other effect
   std::vector<std::uint32_t> streams;  ///< states of rand(), by what seed() returned
-  int nesting = 0;                     ///< of braces, parentheses, calls: bounds our own stack
-  std::int64_t blocks = 0;             ///< made so far, copies included
-  Total elements = std::make_shared<std::atomic<std::int64_t>>(0);  ///< of live arrays and lists
-  Total longText = std::make_shared<std::atomic<std::int64_t>>(0);  ///< live bytes
+  int nesting = 0;          ///< depth of braces, parentheses and calls: bounds our own stack
+  std::int64_t blocks = 0;  ///< number created so far, copies included
+  Total elements =
+      std::make_shared<std::atomic<std::int64_t>>(0);  ///< elements in live arrays and lists
+  Total longText = std::make_shared<std::atomic<std::int64_t>>(0);  ///< bytes in live long strings
   std::int64_t steps = 0;  ///< tokens read and functions evaluated
   std::function<bool(const std::string&)> fileExists;
-  /// The file of the include paths that declares a name, or "".
+  /// The file in the include paths that declares a name, or "".
   std::function<std::string(const std::string&)> declaredIn;
 
-  /// Levels of nesting that are taken: what the limit says, but no more than the stack can bear.
+  /// Greatest depth of nesting: the user's limit, but no more than the stack allows.
   int deepest() const { return std::min(options.limits.nesting, kDeepestNesting); }
   [[noreturn]] void stopTooDeep(const Span& span, const std::string& whatIs) {
-    reporter.stop(
-        span, whatIs + " nested more than " + std::to_string(deepest()) + " deep" +
-                  (options.limits.nesting < kDeepestNesting ? ": --max-nesting raises the limit"
-                                                            : ", which is too much for any scene"));
+    reporter.stop(span,
+                  whatIs + " nested more than " + std::to_string(deepest()) + " deep" +
+                      (options.limits.nesting < kDeepestNesting ? ": --max-nesting raises the limit"
+                                                                : ", the built-in maximum"));
   }
   void checkElements(const Span& span) {
     if (*elements > std::int64_t(options.limits.arrayElements)) stopAtElements(span);
@@ -53,7 +54,7 @@ struct Context {
                             std::to_string(options.limits.arrayElements) +
                             " elements: --max-array-elements raises the limit");
   }
-  /// Counts work, so that no text runs for ever.
+  /// Counts work, so that every text ends.
   void step(const Span& span) {
     if (++steps > options.limits.expandedTokens)
       reporter.stop(span, "this scene takes more than " +
@@ -63,7 +64,7 @@ struct Context {
   }
 };
 
-/// One level deeper for as long as it lives.
+/// Increases the nesting depth during its lifetime.
 class Nested {
  public:
   Nested(Context& c, const Span& span) : context_(c) {

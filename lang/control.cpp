@@ -7,8 +7,7 @@
 
 namespace vestige::lang {
 
-/// The #end that closes the construct which the directive at this index belongs to, or the end of
-/// the text.
+/// The #end of the construct that the directive at this index belongs to, or the end of the text.
 std::uint32_t Directives::endOf(std::uint32_t part) {
   const auto& tokens = stream_.frame().list->tokens;
   while (tokens[part].kind == Token::Kind::directive && *tokens[part].text != "end" &&
@@ -23,14 +22,15 @@ void Directives::jumpBehind(std::uint32_t index) {
   stream_.drop();
 }
 
-/// After a mistake in the head of a construct: goes on behind it, if its text is still being read.
+/// Recovers from an error in the head of a construct: continues behind it, if its text is still
+/// being read.
 void Directives::abandon(std::uint32_t first, std::size_t frames) {
   while (stream_.frames().size() > frames) stream_.pop();
   if (stream_.frames().size() == frames) jumpBehind(endOf(first));
 }
 
-/// Does this part belong to the innermost open construct? Not if it is unpaired (the lexer has
-/// complained) or stands in the middle of a head, as in `#if (1 #else`.
+/// Whether this part belongs to the innermost open construct: not if it is unpaired (already
+/// reported by the lexer) or inside a head, as in `#if (1 #else`.
 bool Directives::isOpen(std::uint32_t part) {
   const Frame& f = stream_.frame();
   const Token& last = f.token(endOf(part));
@@ -84,7 +84,7 @@ void Directives::ifBranch(const Token& directive) {
     bool isTaken = word == "else";
     try {
       isTaken = isTaken || holds(word);
-    } catch (const SyntaxError&) {  // neither branch can be meant
+    } catch (const SyntaxError&) {  // skip all branches
       return abandon(part, depth);
     }
     if (stream_.frames().size() != depth) return;
@@ -226,7 +226,7 @@ bool Directives::caseMatches(const std::string& word, double x) {
 void Directives::nextPart(const Token& directive) {
   const std::uint32_t part = here();
   auto& open = stream_.frame().open;
-  if (!isOpen(part)) throw SyntaxError{};  // already complained about: skips what follows it
+  if (!isOpen(part)) throw SyntaxError{};  // already reported: skips what follows it
   if (open.back().kind != OpenDirective::Kind::choice) {
     open.pop_back();
     jumpBehind(endOf(part));
@@ -251,7 +251,7 @@ void Directives::end(const Token&) {
   } else if (top.kind == OpenDirective::Kind::forLoop) {
     if (Numbers* n = std::get_if<Numbers>(&top.counter->value)) n->v[0] += top.step;
     again = isWithin(top, stream_.frame().token(top.first).span);
-    // Behind the head: its parentheses are the first ones.
+    // Resume behind the head, which ends at the ')' matching its first '('.
     if (again) {
       std::uint32_t i = top.first + 1;
       for (int depth = 0; i < at; ++i) {

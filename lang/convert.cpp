@@ -82,7 +82,7 @@ class Converter {
     return value;
   }
 
-  /// From an array: of entries, or for a map of rows {key, value}.
+  /// A list from an array of entries, or a map from an array of rows {key, value}.
   std::optional<Value> list() {
     const bool isMap = row_.type == ValueType::map;
     const auto* found = std::get_if<ArrayPtr>(&datum_);
@@ -128,7 +128,7 @@ class Converter {
     if (row_.type == ValueType::boolean) value.v[0] = isTrue(n->v[0]) ? 1 : 0;
     if (!isInRange(value, 1)) return {};
     if (row_.type == ValueType::integer && value.v[0] != std::floor(value.v[0])) {
-      // What a division should have made whole is meant to be whole.
+      // Forgives rounding: 3*(1/3) counts as the whole number 1.
       const double whole = std::round(value.v[0]);
       if (std::abs(value.v[0] - whole) > 1e-9 * std::max(1.0, std::abs(whole))) return mismatch();
       value.v[0] = whole;
@@ -160,7 +160,7 @@ class Converter {
     return s ? std::optional(textOf(*s)) : mismatch();
   }
 
-  /// Shares the text, however many blocks say it.
+  /// Shares the text among all blocks.
   static Value textOf(const TextPtr& text) {
     Value value;
     value.kind = Value::Kind::text;
@@ -198,10 +198,10 @@ class Converter {
   const Parameter& row_;
   const Datum& datum_;
   Span span_;
-  std::string who_;  ///< what messages call it
+  std::string who_;  ///< the value's name in messages
 };
 
-/// "a number", "one of its entries": what a list is made of, in the plural.
+/// The entries of a list in the plural, for messages.
 std::string entriesText(const Parameter& row) {
   const Parameter entry = row.entry();
   switch (entry.type) {

@@ -43,7 +43,7 @@ Affine Parser::transform() {
   return scaling(*v);
 }
 
-/// Three finite numbers; nothing after a complaint.
+/// Three finite numbers; nothing if an error was reported.
 std::optional<Numbers> Parser::transformVector(const std::string& word, Span& span) {
   if (!expressions_.begins(stream_.peek()) && stream_.peek().kind != Token::Kind::name)
     expressions_.unexpected("a vector <x, y, z> after '" + word + "'");

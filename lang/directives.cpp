@@ -48,7 +48,7 @@ void Directives::obey(const Token& directive) {
   }
 }
 
-/// After a mistake: to the ';' that ends it, to the next directive or to the next line.
+/// Recovers from an error: skips to the next ';', directive or line.
 void Directives::skipStatement(const Token& directive, int level) {
   const Span& last = stream_.last();
   const bool hasTaken = last.file == directive.span.file && last.via == directive.span.via &&
@@ -76,7 +76,7 @@ Token Directives::plainName(const std::string& before) {
       name.span, "expected a name after " + before + ", found " + describe(name, context_.sources));
 }
 
-/// A name that may be given a meaning.
+/// A name that may be declared.
 Token Directives::newName(const Token& directive) {
   const Token name = plainName("#" + *directive.text);
   const std::string& word = *name.text;
@@ -116,12 +116,12 @@ void Directives::declare(const Token& directive) {
     assign(std::move(value));
     needSemicolon(copy, *name.text);
   } catch (const SyntaxError&) {
-    assign({});  // known, but broken: no second complaint where it is used
+    assign({});  // declared with an error: no second report where it is used
     throw;
   }
 }
 
-/// POV-Ray asks for ';' after numbers, vectors and colours only.
+/// POV-Ray requires ';' after numbers, vectors and colours only.
 void Directives::needSemicolon(const Datum& value, const std::string& name) {
   if (stream_.acceptRaw(";") || !std::holds_alternative<Numbers>(value)) return;
   context_.reporter.error(stream_.behindLast(), "expected ';' after the value of '" + name + "'");
@@ -160,7 +160,7 @@ void Directives::assignElement(const Token& directive, const Token& name) {
   }
   const auto at = elementAt(context_, **array, indices, spans);
   if (!at) return;
-  // Arrays are values: what shares this one keeps the old element. Nobody else: no copy.
+  // Arrays are values: other owners keep the old element. Without other owners no copy is made.
   if (array->use_count() > 1) {
     cell->value = std::make_shared<const Array>(**array);
     context_.checkElements(name.span);
@@ -178,7 +178,7 @@ void Directives::undefine(const Token& directive) {
 }
 
 // ---------------------------------------------------------------- texts
-/// The string behind a directive. Nothing behind it is looked at.
+/// The string after a directive, read without lookahead.
 std::optional<std::string> Directives::text(const Token& directive, Span& span) {
   const auto result = parser_.expressions().operand();
   span = result.span;
@@ -226,7 +226,8 @@ bool Directives::refuseInclude(const std::string& path, int file, const Span& sp
   for (const Frame& f : stream_.frames()) {
     if (f.kind != Frame::Kind::file) continue;
     if (f.file == file) {
-      context_.reporter.error(span, "'" + path + "' includes itself in the end");
+      context_.reporter.error(span,
+                              "'" + path + "' includes itself, directly or through another file");
       return true;
     }
     ++depth;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the words behind '#' do, and how macros are called.
+// Directives (words after '#') and macro calls.
 #pragma once
 #include "lang/include.h"
 #include "lang/parser.h"
@@ -11,9 +11,9 @@ class Directives {
   Directives(Context& context, TokenStream& stream, Parser& parser, Includes& includes)
       : context_(context), stream_(stream), parser_(parser), includes_(includes) {}
 
-  /// Obeys a directive that the stream has just taken. Goes on after a mistake in it.
+  /// Executes the directive that the stream has just read. Recovers from an error in it.
   void obey(const Token& directive);
-  /// If the name is a macro's: reads the arguments and makes the stream read the body.
+  /// If `name` is a macro: reads the arguments and makes the stream read the body.
   bool expand(const Token& name);
 
  private:

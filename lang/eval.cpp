@@ -9,8 +9,7 @@
 namespace vestige::lang {
 namespace {
 
-/// Levels of evaluation for each level of nesting that the limits allow: an expression in
-/// parentheses passes some of them.
+/// Levels of evaluation for each level of nesting: an expression in parentheses takes several.
 constexpr int kLevelsPerNesting = 4;
 
 /// IEC 61966-2-1, also below zero, where it is continued as an odd function.
@@ -115,7 +114,7 @@ double Evaluator::apply(const std::string& op, double x, double y, const Expr& e
   if (op != "/" && op != "%") return relation(op, x, y);
   if (y != 0) return op == "/" ? x / y : std::fmod(x, y);
   context_.reporter.warning(e.wordSpan, "division by zero");
-  return HUGE_VAL;  // POV-Ray's answer, for 0/0 too
+  return HUGE_VAL;  // POV-Ray's result, for 0/0 too
 }
 
 Datum Evaluator::binary(const Expr& e, Arguments a) {
@@ -147,7 +146,7 @@ Datum Evaluator::vector(const Expr& e, Arguments a) {
   return isWhole ? Datum(r) : Datum();
 }
 
-// rgb keeps what a longer operand says about filter and transmit; `color 0.4` fills all five.
+// rgb keeps filter and transmit of a longer operand; `color 0.4` sets all five.
 Datum Evaluator::colour(const Expr& e, Arguments a) {
   const Datum d = evaluate(*e.args[0], a);
   const Numbers* n = wantNumbers(d, *e.args[0], "'" + e.word + "'");

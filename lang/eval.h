@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The worth of an expression. What makes no sense is reported and gives std::monostate, which every
-// further step takes in silence: one complaint for one mistake.
+// Evaluates expressions. A faulty one is reported once and yields std::monostate, which later steps
+// accept silently.
 #pragma once
 #include <span>
 
@@ -15,7 +15,7 @@ class Evaluator {
   Datum evaluate(const Expr& e) { return evaluate(e, {}); }
 
  private:
-  using Arguments = std::span<const double>;  ///< of the function around
+  using Arguments = std::span<const double>;  ///< arguments of the enclosing function
 
   Datum evaluate(const Expr& e, Arguments a);
   Datum unary(const Expr& e, Arguments a);
@@ -29,9 +29,9 @@ class Evaluator {
   Datum builtin(const Expr& e, Arguments a);
   Datum invoke(const Expr& e, Arguments a);
 
-  /// The numbers of an operand, or null after a complaint that names who wants them.
+  /// The numbers of an operand, or null after an error that names the operator.
   const Numbers* wantNumbers(const Datum& d, const Expr& operand, const std::string& who);
-  /// A single number, or nothing after a complaint.
+  /// A single number, or nothing if an error was reported.
   bool wantNumber(const Datum& d, const Expr& operand, const std::string& who, double& x);
   double apply(const std::string& op, double x, double y, const Expr& e);
 
@@ -39,7 +39,7 @@ class Evaluator {
   int depth_ = 0;
 };
 
-/// Where A[i][j] lies in the array's data, or nothing after a complaint.
+/// The position of A[i][j] in the array's data, or nothing if an error was reported.
 std::optional<std::size_t> elementAt(Context& context, const Array& array,
                                      const std::vector<double>& indices,
                                      const std::vector<Span>& spans);

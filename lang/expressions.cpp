@@ -8,9 +8,10 @@
 namespace vestige::lang {
 namespace {
 
-/// Deeper trees are worth something at once, so that a sum of a million terms needs no stack.
+/// Deeper trees are folded to a constant immediately, so that a sum of a million terms needs no
+/// stack.
 constexpr int kDeepTree = 64;
-/// A function's tree has to stay.
+/// A function's tree is never folded.
 constexpr int kDeepestFunction = 250;
 
 constexpr const char* kSwizzles[] = {"x",     "y",    "z",      "t",        "u",    "v",   "red",
@@ -46,7 +47,7 @@ Datum constantOf(const std::string& word, double version) {
   return n;
 }
 
-/// Directives that do something by themselves, unlike #if or #end, which choose what is read.
+/// Directives with an effect of their own, unlike #if or #end, which choose the text to read.
 bool isStatement(const Token& t) {
   static const std::set<std::string> words = {"declare", "local",   "undef", "macro",  "include",
                                               "debug",   "warning", "error", "version"};
@@ -243,7 +244,7 @@ ExprPtr ExpressionParser::product() {
 ExprPtr ExpressionParser::chain(Level operand, std::initializer_list<const char*> signs) {
   ExprPtr left = (this->*operand)();
   for (;;) {
-    // Behind a string or a block no operator can follow, so what stands there may have to wait.
+    // No operator can follow a string or a block, so a directive there may have to wait.
     const Token ahead = left->mayCount() ? operatorAhead() : stream_.peekRaw();
     if (ahead.kind != Token::Kind::sign ||
         std::none_of(signs.begin(), signs.end(), [&](const char* s) { return ahead.is(s); }))
@@ -438,7 +439,7 @@ ExprPtr ExpressionParser::definedTest(const Token& word) {
   return constant(Numbers(isKnown ? 1 : 0), context_.sources.join(word.span, stream_.last()));
 }
 
-// A name that means nothing, with the arguments that it may have been given.
+// An undeclared name, with the arguments that may follow it.
 ExprPtr ExpressionParser::unknown(const Token& name) {
   const bool isCall = stream_.peekRaw().is("(");
   if (words_.opensBlock(*name.text))

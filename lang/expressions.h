@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The grammar of expressions: from tokens to trees.
+// Parses expressions into trees.
 #pragma once
 #include "lang/ast.h"
 #include "lang/eval.h"
@@ -13,32 +13,32 @@ class ExpressionParser {
   ExpressionParser(Context& context, TokenStream& stream, const Vocabulary& words)
       : context_(context), stream_(stream), words_(words), evaluator_(context) {}
 
-  /// Where an expression stands, which decides where it ends.
+  /// The context of an expression, which decides where it ends.
   enum class Place {
-    setting,      ///< in a block: a comparison has to stand in parentheses, `0 <1,2,3>` are two
-    parentheses,  ///< comparisons are welcome
-    declaration,  ///< right of `#declare A =`: comparisons, and the next directive ends it
+    setting,      ///< in a block: comparisons need parentheses, `0 <1,2,3>` is two values
+    parentheses,  ///< comparisons are allowed
+    declaration,  ///< after `#declare A =`: comparisons are allowed, and the next directive ends it
   };
   struct Result {
     Datum value;
     Span span;
   };
   Result evaluate(Place place);
-  /// '(' expression ')': a number; nothing after a complaint.
+  /// '(' expression ')': a number; nothing if an error was reported.
   std::optional<double> condition();
-  /// A string, or another value, that is read without a look at what follows: behind it comes a
-  /// directive that must not be obeyed yet.
+  /// A string or another value, read without lookahead: a directive that follows it must not be
+  /// executed yet.
   Result operand();
-  /// '{' expression '}', the parameters being known by the function's slots.
+  /// '{' expression '}', in which parameters are referred to by their slots in the function.
   void functionBody(Function& function);
 
-  /// Can an expression begin with this token?
+  /// Whether an expression can begin with this token.
   bool begins(const Token& token) const;
-  /// Takes a sign or complains: what it closes was opened at `open`.
+  /// Reads a closing sign or reports an error; the construct was opened at `open`.
   void expect(const char* sign, const Span& open, const char* opener);
-  /// "expected X, found Y" at the next token.
+  /// Reports "expected X, found Y" at the next token.
   [[noreturn]] void unexpected(const std::string& expected);
-  /// Complains about a name that means nothing.
+  /// Reports an undeclared name.
   void undeclared(const Token& name, const std::string& role);
 
  private:
@@ -46,7 +46,7 @@ class ExpressionParser {
     bool comparisons = false, endsAtDirective = false;
     std::int32_t via = -1;  ///< the text whose directives end it
   };
-  class With;  ///< another mode for as long as it lives
+  class With;  ///< another mode during its lifetime
 
   const Token& operatorAhead();
   ExprPtr expression();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the tree of a function to its program: steps on a stack of numbers, in the order in which
-// the operands stand. Both branches of a choice are computed, so each call costs the same.
+// Compiles the tree of a function to its program: steps on a stack of numbers, in the order of the
+// operands. Both branches of a choice are computed, so each call costs the same.
 #include "lang/function.h"
 
 #include <cmath>
@@ -151,7 +151,7 @@ class Compiler {
  public:
   Compiler(Context& context, const Span& use) : context_(context), use_(use) {}
 
-  /// Null after a complaint.
+  /// Null if an error was reported.
   std::shared_ptr<const Program> program(const Function& f) {
     if (level_ >= kDeepestCall) return tooDear();
     if (f.program) return std::static_pointer_cast<const Program>(f.program);
@@ -185,7 +185,7 @@ class Compiler {
     return nullptr;
   }
 
-  /// Steps that leave the worth of `e` on the stack above `below` numbers.
+  /// Appends steps that push the value of `e` onto the stack above `below` numbers.
   bool add(Program& p, const Expr& e, int below) {
     context_.step(e.span);
     if (below >= kStack) return fail(e.span, "this function's expression is too long");
@@ -244,7 +244,7 @@ class Compiler {
     return true;
   }
 
-  /// What is no operation of numbers must be a number already: `A[2]`, `vlength(V)`, `Gold.red`.
+  /// Any other expression must already be a number: `A[2]`, `vlength(V)`, `Gold.red`.
   bool addConstant(Program& p, const Expr& e) {
     if (hasParameter(e))
       return fail(e.span,
@@ -269,7 +269,7 @@ class Compiler {
                        [](const ExprPtr& arg) { return arg && hasParameter(*arg); });
   }
 
-  /// Whether a call has as many arguments as the built-in takes.
+  /// Whether the number of arguments is valid for the built-in.
   static bool fits(const Expr& e) {
     const std::string_view s = e.function->signature;
     const std::size_t n = e.args.size(), bar = s.find('|');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A function of the text as the engine calls it: a flat program of numbers.
+// Functions of the text in the form that the engine calls: a flat program on numbers.
 #pragma once
 #include <vestige/function.h>
 
@@ -8,8 +8,8 @@
 
 namespace vestige::lang {
 
-/// The program of a function, made once; null after a complaint at `span`, where a block wants it,
-/// or in the function's own expression.
+/// The program of a function, compiled once; null if an error was reported, at `span` (the use in a
+/// block) or in the function's own expression.
 std::shared_ptr<const vestige::Function> programOf(Context& context, const Function& function,
                                                    const Span& span);
 

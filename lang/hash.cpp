@@ -59,7 +59,7 @@ class Hash {
   std::uint64_t value() const { return value_; }
 
  private:
-  /// The hash of what many blocks may share, reckoned once where that takes time.
+  /// The hash of a value that many blocks may share, computed once if it is expensive.
   template <class T>
   std::uint64_t shared(const T& item, std::size_t size) {
     constexpr std::size_t kLong = 32;

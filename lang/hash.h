@@ -4,8 +4,8 @@
 
 namespace vestige::lang {
 
-/// Of the meaning: the same for two texts that describe the same scene with the same words, however
-/// they are laid out. Stable between runs and machines.
+/// Hash of the meaning: equal for two texts that describe the same scene with the same words in any
+/// layout. Stable between runs and machines.
 std::uint64_t hashOf(const SceneDesc& scene);
 
 }  // namespace vestige::lang

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which file an #include means, and its tokens.
+// Finds and tokenises included files.
 #pragma once
 #include <map>
 #include <optional>
@@ -20,14 +20,15 @@ class Includes {
   };
   /// A text under a name, tokenised.
   File add(const std::string& name, std::string text);
-  /// The file's text and tokens, kept for the next time; nothing if it cannot be read.
+  /// The file's text and tokens, cached; nothing if it cannot be read.
   std::optional<File> load(const std::string& path);
-  /// Where the name is found: beside the text that asks, in the working directory, then in the
-  /// include paths. "" if nowhere; `tried` gets every path.
+  /// The path of an included file: beside the including text, in the working directory, then in the
+  /// include paths. "" if not found; `tried` receives every path.
   std::string find(const std::string& name, int askingFile, std::vector<std::string>& tried) const;
-  /// The file beside an include path that declares a name, or "": for a hint.
+  /// The file in an include path that declares a name, or "": for a hint.
   std::string declaredIn(const std::string& name) const;
-  /// With --sandbox: lies below the scene's folder or an include path?
+  /// Whether the file is allowed: with --sandbox it must lie below the scene's folder or an include
+  /// path.
   bool isAllowed(const std::string& path) const;
 
  private:

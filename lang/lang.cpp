@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The front door: puts the parts together for one scene.
+// Entry point: connects the parts for one scene.
 #include "lang/lang.h"
 
 #include "lang/directives.h"
@@ -10,7 +10,7 @@
 namespace vestige::lang {
 namespace {
 
-/// Everything that one run needs; references between the parts stay valid for its lifetime.
+/// All parts of one run; references between them stay valid during its lifetime.
 class Reader {
  public:
   Reader(const std::string& name, const SchemaSource& schemas, const Options& options,

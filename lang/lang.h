@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene language from outside: text in, meaning and complaints out.
+// The interface of the scene language: text in, scene description and diagnostics out.
 #pragma once
 #include <functional>
 #include <memory>
@@ -13,35 +13,35 @@ namespace vestige::lang {
 
 class Sources;  // lang/source.h: texts and expansions that spans refer to
 
-/// Bounds on what hostile text may cost; each has its own message, which names the flag that raises
-/// it.
+/// Limits on the cost of hostile texts. Each has its own message, which names the option that
+/// raises it.
 struct Limits {
   int includeDepth = 32;
   int macroDepth = 200;
-  std::int64_t loopIterations = 10'000'000;  ///< of the whole run
+  std::int64_t loopIterations = 10'000'000;  ///< in the whole run
   std::int64_t expandedTokens = 200'000'000;
   std::size_t stringLength = 1 << 20;
   int errors = 20;                        ///< then parsing stops
-  int nesting = 256;                      ///< of braces, parentheses, calls
+  int nesting = 256;                      ///< depth of braces, parentheses and calls
   std::int64_t blocks = 2'000'000;        ///< copies included
   std::size_t arrayElements = 4'000'000;  ///< alive at one time
 };
 
-/// Where the language finds the schemas of blocks. It asks for each when a text names it, so that
-/// what takes time, such as opening a plugin library, can wait until then. What is returned must
-/// outlive the reading.
+/// Source of the schemas of blocks. Each is requested when a text first names the block, so
+/// expensive work such as opening a plugin library can be deferred. The schemas must outlive the
+/// parsing.
 class SchemaSource {
  public:
   virtual ~SchemaSource() = default;
-  /// Null where there is no such block. `name` is "" for a block that is no plugin.
+  /// The schema of a block, or null. `name` is "" for a block that is no plugin.
   virtual const Schema* find(const std::string& kind, const std::string& name) const = 0;
-  /// Whether there ought to be such a block: quick, for it is asked of every word.
+  /// Whether such a block should exist. Must be fast: it is called for every word.
   virtual bool has(const std::string& kind, const std::string& name) const = 0;
-  /// Every kind that there is a schema of.
+  /// All kinds that have a schema.
   virtual std::vector<std::string> kinds() const = 0;
   /// Names of one kind, for messages.
   virtual std::vector<std::string> names(const std::string& kind) const = 0;
-  /// What to tell the user about a block that should be there and is not, or "".
+  /// The reason for the user why an existing block is not available, or "".
   virtual std::string whyMissing(const std::string& kind, const std::string& name) const = 0;
 };
 
@@ -69,7 +69,7 @@ Result readSceneText(const std::string& name, const std::string& text, const Sch
 /// includes.
 void print(std::ostream& out, const Diagnostic& diagnostic, const Sources& sources, bool colour);
 
-/// Where a span begins, for --json.
+/// The place of a span, for --json.
 struct Place {
   std::string file;
   int line = 0, column = 0;        ///< from 1; 0: no place

@@ -50,7 +50,7 @@ class Lexer {
     return token(Token::Kind::bad, begin, std::move(what));
   }
 
-  /// Comments count as blanks; one that never closes is a token, so that it is complained about.
+  /// Comments count as blanks; an unclosed comment becomes a `bad` token.
   bool skipBlanks(std::size_t& openComment) {
     for (;;) {
       while (!atEnd() && isBlank(peek())) ++at_;
@@ -118,7 +118,7 @@ class Lexer {
       }
     }
     Token t = token(Token::Kind::number, begin, text_.substr(begin, at_ - begin));
-    // from_chars knows no locale; it takes neither a leading nor a trailing point amiss.
+    // from_chars does not depend on the locale; it accepts a leading or a trailing point.
     const auto end = text_.data() + at_;
     const auto [stop, error] = std::from_chars(text_.data() + begin, end, t.number);
     if (error == std::errc::result_out_of_range) t.number = isTiny(begin) ? 0 : HUGE_VAL;

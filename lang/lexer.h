@@ -20,7 +20,7 @@ class Names {
   std::unordered_set<std::string> pool_;
 };
 
-/// One or two characters as a number; 0 is no sign's.
+/// One or two characters as a number; 0 is not a sign.
 constexpr std::uint16_t signCode(const char* s) {
   const auto first = static_cast<unsigned char>(s[0]);
   return std::uint16_t(first + (first ? static_cast<unsigned char>(s[1]) * 256 : 0));
@@ -34,15 +34,15 @@ struct Token {
     string,     ///< `text`: without quotes, escapes resolved
     sign,       ///< punctuation, `text`: "{", "<=", ...
     directive,  ///< `#if`, `text`: the word; `jump`: see below
-    bad,        ///< `text`: what is wrong with it; complained about only where it is read
+    bad,        ///< `text`: the error message, reported only if the parser gets here
   };
   Kind kind = Kind::end;
   std::uint16_t sign = 0;  ///< of punctuation: signCode() of it, for quick comparison
   Span span;
   const std::string* text = nullptr;
   double number = 0;
-  /// Of a directive that opens or continues a construct: the index in its list of the next part,
-  /// #if -> #elseif -> #else -> #end. Of an #end: of what it closes.
+  /// For a directive that opens or continues a construct: the token index of the next part, #if ->
+  /// #elseif -> #else -> #end. For an #end: the index of the directive that it closes.
   std::uint32_t jump = 0;
 
   bool is(const char* s) const { return sign == signCode(s); }
@@ -54,10 +54,10 @@ struct TokenList {
   std::vector<Token> tokens;
 };
 
-/// Never fails: what is wrong becomes a `bad` token, an unpaired #end or #if a diagnostic.
+/// Never fails: a lexical error becomes a `bad` token, an unpaired #end or #if a diagnostic.
 TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter);
 
-/// "'light'", "number 3", "the end of the file": a token as messages name it.
+/// "'light'", "number 3", "the end of the file": a token in messages.
 std::string describe(const Token& token, const Sources& sources);
 
 }  // namespace vestige::lang

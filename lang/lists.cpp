@@ -66,7 +66,7 @@ Entry Parser::mapEntry(const Parameter& row, const Parameter& entry, const List&
   return made;
 }
 
-/// One value of a list, with its span; of kind none after a complaint.
+/// One value of a list, with its span; of kind none if an error was reported.
 Value Parser::entryValue(const Parameter& entry, const std::string& who) {
   const Token t = stream_.peek();
   const bool isBlock = t.kind == Token::Kind::name && words_.isKind(*t.text);

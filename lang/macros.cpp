@@ -73,7 +73,7 @@ bool Directives::expand(const Token& name) {
   parser_.expressions().expect(")", open, "(");
   const Span call = context_.sources.join(name.span, stream_.last());
   if (takes(*m, cells.size(), call)) readBody(*m, cells, call);
-  return true;  // a call that does not fit counts as empty
+  return true;  // a faulty call expands to nothing
 }
 
 bool Directives::takes(const Macro& m, std::size_t arguments, const Span& call) {
@@ -89,7 +89,7 @@ bool Directives::takes(const Macro& m, std::size_t arguments, const Span& call) 
   return false;
 }
 
-/// Makes the stream go on with the body, whose parameters are names in a table of its own.
+/// Makes the stream continue with the body; its parameters are names in a new table.
 void Directives::readBody(const Macro& m, const std::vector<Cell>& arguments, const Span& call) {
   const int via = context_.sources.expand(Expansion::Kind::macro, *m.name, call);
   stream_.push({Frame::Kind::macro, m.list, m.begin, m.end, via, -1});

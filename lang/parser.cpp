@@ -131,7 +131,7 @@ Parser::Head Parser::head(const std::string& kind, Head head) {
   return head;
 }
 
-/// Takes the plugin's word, or the name of a declared block of that kind.
+/// Reads the plugin's word, or the name of a declared block of that kind.
 bool Parser::headName(const std::string& kind, Head& head) {
   const Token t = stream_.peek();
   if (t.kind != Token::Kind::name) return false;
@@ -169,7 +169,7 @@ void Parser::unknownPlugin(const std::string& kind, const Token& found, const st
   for (const std::string& name : context_.symbols.names()) known.push_back(name);
   const std::string near = didYouMean(*found.text, known);
   if (const Cell cell = context_.symbols.find(found.text)) {
-    if (isBroken(cell->value)) throw SyntaxError{};  // complained about where it was declared
+    if (isBroken(cell->value)) throw SyntaxError{};  // already reported where it was declared
     context_.reporter.syntaxError(found.span, "expected a " + kind + ", found " +
                                                   describe(cell->value) + ", which '" +
                                                   *found.text + "' stands for");
@@ -235,8 +235,8 @@ Parser::Next Parser::item(BlockBuilder& b, bool afterComma) {
   return Next::more;
 }
 
-/// Does a value without a name begin here? A parameter's name goes before a declared one of the
-/// same spelling, unless a comma has announced a value.
+/// Whether a positional value begins here. A parameter's name has precedence over a declared name
+/// of the same spelling, unless a comma precedes it.
 bool Parser::isValue(const BlockBuilder& b, const Token& t, bool afterComma) const {
   const Parameter* next = b.nextPositional();
   if (next && next->isList() && t.is("[")) return true;
@@ -338,7 +338,7 @@ std::optional<Block> Parser::pigment() {
 }
 
 // block := [kind] plugin ['{' item* '}'] | '{' plugin item* '}' | name
-// A parameter that is called like a plugin means it: `image { "sky.exr" }`.
+// A parameter named like a plugin creates that plugin: `image { "sky.exr" }`.
 void Parser::blockSetting(BlockBuilder& b, const Parameter& row, const Span& nameSpan) {
   b.setBlock(row, nameSpan, blockOf(row, nameSpan));
 }
@@ -363,7 +363,7 @@ Block Parser::blockOf(const Parameter& row, const Span& nameSpan) {
   return finishBlock(head(kind, start), Braces::optional);
 }
 
-// A block inside a block. One that cannot stand here but could outside: a '}' was forgotten.
+// A block inside a block. If it may not stand here but may stand outside, a '}' is missing.
 Parser::Next Parser::nested(BlockBuilder& b, const Token& t) {
   const bool isShape = words_.isShape(*t.text) && !words_.isKind(*t.text);
   const std::string kind = isShape ? "shape" : *t.text;
@@ -397,7 +397,7 @@ void Parser::declaredItem(BlockBuilder& b, const Token& t, const Block& declared
   b.add(declared);
 }
 
-/// Says which parameter the block may be meant for, if there is one that takes it.
+/// Adds a note with the parameter that accepts such a block, if there is one.
 void Parser::misplaced(const BlockBuilder& b, const Token& found, const std::string& what,
                        const std::string& kind) {
   std::string advice;

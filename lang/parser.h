@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The grammar of scenes and blocks. It knows no plugin: what may stand where comes from schemas.
+// The grammar of scenes and blocks. It contains no plugin's words: schemas define which items a
+// block accepts.
 #pragma once
 #include "lang/builder.h"
 #include "lang/expressions.h"
@@ -11,10 +12,10 @@ class Parser {
   Parser(Context& context, TokenStream& stream, const Vocabulary& words)
       : context_(context), stream_(stream), words_(words), expressions_(context, stream, words) {}
 
-  /// Everything up to the end of the text.
+  /// Parses everything up to the end of the text.
   void scene(SceneDesc& scene);
 
-  /// What may stand right of `#declare A =` and as a macro's argument.
+  /// A value after `#declare A =` or as a macro's argument.
   struct Declared {
     Datum value;
     Span span;
@@ -27,14 +28,14 @@ class Parser {
   void skipToStatement(int level);
 
  private:
-  /// The beginning of a block: which schema it has, and what it takes over.
+  /// The head of a block: its schema, and the declared block that it copies.
   struct Head {
     const Schema* schema = nullptr;
     Span span;
     BlockPtr base = nullptr;
     bool isOpen = false;  ///< '{' has been taken
     Span brace = {};
-    std::string after = "";  ///< the word that asks for it, if that is not its kind
+    std::string after = "";  ///< the parameter's word before it, if that is not its kind
   };
   enum class Braces { needed, optional };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A diagnostic on paper: the place, the sentence, the line, the caret, the way that led there.
+// Prints a diagnostic: place, message, line, caret, and the chain of macro calls and includes.
 #include <algorithm>
 #include <string_view>
 
@@ -45,7 +45,7 @@ std::pair<std::string, std::string> marked(const Span& span, const Sources& sour
   std::uint32_t end = line + 1 < text.lineStarts.size() ? text.lineStarts[line + 1] - 1 : size;
   if (end > begin && text.text[end - 1] == '\r') --end;
 
-  // Bytes far from the caret need not be looked at: a line may be a whole file.
+  // Bytes far from the caret are skipped: a line may be a whole file.
   const std::uint32_t near = 16 * kWidth;
   const bool farFromStart = span.begin > begin + near;
   const std::uint32_t from = farFromStart ? span.begin - near : begin;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Complaints while reading: each once, not too many, and how reading goes on after one.
+// Diagnostics while parsing: deduplicated, limited, and the exceptions used for recovery.
 #pragma once
 #include <set>
 #include <string>
@@ -9,10 +9,9 @@
 
 namespace vestige::lang {
 
-/// The grammar is lost at this point. Already reported; caught where reading can go on.
+/// A syntax error. Already reported; caught where parsing can continue.
 struct SyntaxError {};
-/// Reading makes no sense any more (a limit is reached, #error). Already reported; caught at the
-/// front door.
+/// Ends the parsing (a limit is reached, #error). Already reported; caught in lang.cpp.
 struct Stop {};
 
 class Reporter {
@@ -20,7 +19,7 @@ class Reporter {
   Reporter(Diagnostics& diagnostics, int mostErrors)
       : diagnostics_(diagnostics), mostErrors_(mostErrors) {}
 
-  /// The same complaint at the same place, as in a loop, is made once.
+  /// Reports an error. The same message at the same place, as in a loop, is reported once.
   Diagnostic& error(const Span& span, const std::string& message) {
     if (!isNew(span, message)) return ignored_;
     if (diagnostics_.errors() >= mostErrors_) {
@@ -57,7 +56,7 @@ class Reporter {
   int mostErrors_;
   int warnings_ = 0;
   std::set<std::tuple<std::int32_t, std::uint32_t, std::string>> seen_;
-  Diagnostic ignored_;  ///< takes the notes of a complaint made before
+  Diagnostic ignored_;  ///< receives the notes of a repeated error
 };
 
 /// "; did you mean 'x'?", or nothing.

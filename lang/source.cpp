@@ -8,8 +8,8 @@
 namespace vestige::lang {
 namespace {
 
-/// Past this many different calls a chain is reported up to its first part only: recursion with
-/// many branches must not fill the memory with places.
+/// Beyond this many different calls only the first part of a chain is reported, so that branching
+/// recursion does not fill the memory.
 constexpr std::size_t kMostExpansions = 1'000'000;
 
 /// Characters, not bytes, of UTF-8.

@@ -17,12 +17,12 @@ struct Text {
   std::vector<std::uint32_t> lineStarts;  ///< byte offsets
 };
 
-/// Why a piece of text was read: a macro's body for a call, a file for an #include.
+/// The reason why a piece of text was read: a macro call, or an #include.
 struct Expansion {
   enum class Kind { macro, include };
   Kind kind = Kind::macro;
   std::string name;
-  Span call;      ///< of the call or of the #include; its own `via` leads further out
+  Span call;      ///< span of the call or of the #include; its own `via` leads further out
   int depth = 1;  ///< length of the chain
 };
 
@@ -39,8 +39,8 @@ class Sources {
   std::string excerpt(const Span& span) const;
   /// From 0.
   int lineOf(int file, std::uint32_t offset) const;
-  /// From the beginning of one to the end of the other; where they came through different calls,
-  /// as seen from the innermost text that holds both.
+  /// The span from the beginning of one to the end of the other; if they came through different
+  /// calls, in the innermost text that contains both.
   Span join(Span a, Span b) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tokens in the order in which they count: macros expanded, includes opened, directives obeyed.
+// The tokens for the parser: macros expanded, includes opened, directives executed.
 #pragma once
 #include <functional>
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace vestige::lang {
 
-/// A construct between a directive and its #end that is being read.
+/// A construct (from a directive to its #end) that is being read.
 struct OpenDirective {
   enum class Kind { branch, whileLoop, forLoop, choice };
   Kind kind = Kind::branch;
   std::uint32_t first = 0;  ///< index of the directive that opened it
-  Cell counter = {};        ///< of #for, with its last value and step
+  Cell counter = {};        ///< the variable of #for, with its last value and step
   double last = 0, step = 1;
 };
 
@@ -23,8 +23,8 @@ struct Frame {
   Kind kind = Kind::file;
   const TokenList* list = nullptr;
   std::uint32_t at = 0, end = 0;  ///< next token, one past the last
-  int via = -1;                   ///< what leads here, for the spans
-  int file = -1;                  ///< of a file: its index in Sources
+  int via = -1;                   ///< Expansion that leads here, for spans
+  int file = -1;                  ///< index in Sources of a file, else -1
   std::vector<OpenDirective> open = {};
 
   const Token& token(std::uint32_t i) const { return list->tokens[i]; }
@@ -34,9 +34,9 @@ class TokenStream {
  public:
   explicit TokenStream(Context& context) : context_(context) {}
 
-  /// Called for each directive that is reached. May read on, and may move the frame.
+  /// Called for each directive that is reached. May read further tokens and may move the frame.
   std::function<void(const Token&)> onDirective;
-  /// Called for each name; true: it was a macro's and is now being read.
+  /// Called for each name; returns true if it is a macro, whose body is now being read.
   std::function<bool(const Token&)> onName;
 
   void push(Frame frame);
@@ -53,20 +53,20 @@ class TokenStream {
   /// '>' at the end of a vector. Of '>=' the rest stays, so that <1,2,3>=<3,2,1> compares.
   bool acceptVectorEnd();
 
-  /// The next token as it stands: no directive is obeyed, no macro expanded. May look a few ahead,
-  /// through the ends of macros.
+  /// The next token without executing directives or expanding macros. May look several tokens
+  /// ahead, through the ends of macros.
   Token peekRaw(int ahead = 0) const;
   Token nextRaw();
   bool acceptRaw(const char* sign);
 
-  /// Where the last token that was taken ends: the place to miss a ';'.
+  /// The end of the last token read: the place to report a missing ';'.
   Span behindLast() const;
   const Span& last() const { return last_; }
-  /// Grows with every token taken: tells whether a step made any progress.
+  /// Number of tokens read: shows whether a step made progress.
   std::int64_t taken() const { return taken_; }
-  /// '{' taken minus '}' taken: how deep the text stands.
+  /// Number of '{' minus number of '}' read.
   int braces() const { return braces_; }
-  /// Forgets the token that was looked at: the frame is about to move.
+  /// Discards the lookahead token: the frame is about to move.
   void drop() { hasNext_ = false; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is called what: POV-Ray's dynamic stack of tables, main file < include < macro call.
+// Names and their values: POV-Ray's dynamic stack of tables, main file < include < macro call.
 #pragma once
 #include <memory>
 #include <optional>
@@ -12,12 +12,13 @@
 
 namespace vestige::lang {
 
-/// A macro is a range of tokens; its text means what the caller's names mean.
+/// A macro is a range of tokens; names in its body are looked up in the caller's tables.
 struct Macro {
   struct Parameter {
     const std::string* name;
     bool isOptional = false;
-    Datum initial = {};  ///< of an optional one; monostate: undefined in the body if left out
+    Datum initial =
+        {};  ///< default of an optional one; monostate: undefined in the body if omitted
   };
   const std::string* name;
   std::vector<Parameter> parameters;
@@ -30,7 +31,7 @@ struct Symbol {
   Datum value;
   Span declared;
 };
-/// Shared between a name and the macro parameters that stand for it.
+/// Shared between a name and the macro parameters that refer to it.
 using Cell = std::shared_ptr<Symbol>;
 
 class Symbols {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an expression is worth, while the text is read.
+// The values that expressions have at parse time.
 #pragma once
 #include <array>
 #include <atomic>
@@ -37,15 +37,15 @@ using MacroPtr = std::shared_ptr<const Macro>;
 using FunctionPtr = std::shared_ptr<const Function>;
 using ArrayPtr = std::shared_ptr<const Array>;
 
-/// std::monostate is what is left of an expression that was complained about: everything takes it
-/// in silence.
+/// std::monostate: the value of an expression whose error has already been reported; later steps
+/// accept it silently.
 using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, Affine, FunctionPtr,
                            ArrayPtr, MacroPtr>;
 
-/// What lives at one time. A scene gives back its shares wherever it ends: on any thread.
+/// A count of live objects. A scene returns its shares when it is destroyed, on any thread.
 using Total = std::shared_ptr<std::atomic<std::int64_t>>;
 
-/// A share of a total that is given back when its owner goes.
+/// A share of a total, returned when its owner is destroyed.
 class Share {
  public:
   Share() = default;
@@ -74,18 +74,19 @@ class Share {
 struct Array {
   std::vector<int> sizes;
   std::vector<Datum> data;  ///< monostate: not yet assigned
-  Share share = {};         ///< of the elements that may live
+  Share share = {};         ///< share of the limit on live elements
 };
 
 inline Datum textDatum(std::string s) { return std::make_shared<const std::string>(std::move(s)); }
 inline const Numbers* numbers(const Datum& d) { return std::get_if<Numbers>(&d); }
 inline bool isBroken(const Datum& d) { return std::holds_alternative<std::monostate>(d); }
 
-/// Up to this a number is false and two numbers are equal; POV-Ray's EPSILON.
+/// Numbers up to this size are false, and numbers that differ by no more are equal; POV-Ray's
+/// EPSILON.
 inline constexpr double kTruth = 1e-10;
 inline bool isTrue(double x) { return !(x <= kTruth && x >= -kTruth); }
 
-/// "the number 3", "the vector <1, 2, 3>", "a string", "a brdf": as messages name it.
+/// "the number 3", "the vector <1, 2, 3>", "a string", "a brdf": a value in messages.
 std::string describe(const Datum& datum);
 /// Shortest text that reads back the same: "0.1", "1e+30".
 std::string shortest(double x);

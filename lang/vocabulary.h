@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words that the schemas bring, and those that POV-Ray has and this language has not.
+// The words of the schemas, and replacements for words of POV-Ray that this language lacks.
 #pragma once
 #include <functional>
 #include <set>
@@ -20,30 +20,30 @@ class Vocabulary {
   /// "brdf", "union", but not "sphere".
   bool isKind(const std::string& word) const { return kinds_.count(word) > 0; }
   bool isShape(const std::string& word) const { return schemas_.has("shape", word); }
-  /// Begins a block: a kind, a shape or `object`.
+  /// Whether a word begins a block: a kind, a shape or `object`.
   bool opensBlock(const std::string& word) const;
 
-  // For messages: these may take long.
+  // For messages; these may be slow.
   /// Whether blocks of a kind may stand outside every other block.
   bool standsAlone(const std::string& kind) const;
-  /// Kinds of blocks that may hold one of a kind.
+  /// Kinds of blocks that may contain a block of this kind.
   std::vector<std::string> holders(const std::string& kind) const;
-  /// Names of a kind's plugins; {""} for a kind that has none.
+  /// Names of a kind's plugins; {""} for a kind without plugins.
   std::vector<std::string> plugins(const std::string& kind) const { return schemas_.names(kind); }
   /// Every word that opens a block.
   std::vector<std::string> blockWords() const;
-  /// A note that says why a plugin is missing, if there is more to say than that it is.
+  /// Adds a note with the reason why a plugin is missing, if one is known.
   void explain(Diagnostic& d, const std::string& kind, const std::string& plugin) const;
 
  private:
-  /// Whether some block of a kind is so.
+  /// Whether `is` holds for any schema of a kind.
   bool isAnyOf(const std::string& kind, const std::function<bool(const Schema&)>& is) const;
 
   const SchemaSource& schemas_;
   std::set<std::string> kinds_;
 };
 
-/// What to write instead of a word of POV-Ray's that this language has no use for; null for others.
+/// The replacement for a word of POV-Ray that this language lacks; null for other words.
 const char* insteadOf(const std::string& word);
 /// translate, rotate, scale, matrix, transform.
 bool isTransformWord(const std::string& word);

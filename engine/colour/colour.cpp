@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kRenderingSpace = "Linear Rec.709";  // its name in config.ocio
 
-/// OpenColorIO's messages run over several lines; the first says what is wrong.
+/// OpenColorIO's messages have several lines; the first one contains the error.
 std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 OCIO::ConstConfigRcPtr builtinConfig() {
@@ -174,7 +174,7 @@ std::shared_ptr<const ColourTransform> fromColourSpace(const std::string& space,
   }
   try {
     auto steps = std::make_shared<Steps>();
-    // Data passes unchanged: that is what a space marked as data asks for.
+    // A space marked as data leaves numbers unchanged.
     if (config->getColorSpace(space.c_str())->isData()) return steps;
     Steps out;
     const std::string entry = entrySpace(config, out, false);

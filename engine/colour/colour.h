@@ -26,12 +26,13 @@ class ColourTransform {
   virtual void apply(float* pixels, std::size_t count, int stride) const = 0;
 };
 
-/// From a colour space of the config in use (the file that the environment variable OCIO names,
-/// else the built-in one) to rendering space; null with `error` if there is none of that name.
+/// Transform from a colour space of the config in use (the file that the environment variable OCIO
+/// names, else the built-in one) to rendering space; null with `error` if there is none of that
+/// name.
 std::shared_ptr<const ColourTransform> fromColourSpace(const std::string& space,
                                                        std::string& error);
 
-/// From rendering space to code values of a display. Exposure included; what comes out is not
+/// Transform from rendering space to code values of a display, with exposure; results are not
 /// clamped.
 std::shared_ptr<const ColourTransform> forDisplay(const Display& display, std::string& error);
 

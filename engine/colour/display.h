@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From radiance to what a display shows. OpenColorIO stays behind this header.
+// Converts radiance to code values of a display. OpenColorIO stays behind this header.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -20,8 +20,8 @@ struct DisplayViews {
   std::vector<std::string> views;
 };
 std::vector<DisplayViews> displayViews(std::string& error);
-/// From radiance to code values of the display, in place: `count` pixels of which the first three
-/// of `stride` numbers are R, G, B. Not clamped. False with `error` for an unknown view.
+/// Converts radiance to code values of the display, in place: `count` pixels of which the first
+/// three of `stride` numbers are R, G, B. Not clamped. False with `error` for an unknown view.
 bool applyDisplay(const Display& display, float* pixels, std::size_t count, int stride,
                   std::string& error);
 /// The same but the exposure as GLSL 1.30: a function `vec4 displayed(vec4 radiance)`. "" with

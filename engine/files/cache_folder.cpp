@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A variable of the environment that names a folder; relative ones count for nothing, as the XDG
-/// specification has it.
+/// A variable of the environment that names a folder; relative ones are ignored, as the XDG
+/// specification requires.
 fs::path named(const char* variable) {
   const char* text = std::getenv(variable);
   return text && fs::path(text).is_absolute() ? fs::path(text) : fs::path();

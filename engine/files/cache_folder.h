@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where files are kept that can be made again.
+// The folder for files that can be created again.
 #pragma once
 #include <string>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tells that a file has not changed since it was read.
+// Time and size of a file, to detect changes since it was read.
 #pragma once
 #include <cstdint>
 #include <string>

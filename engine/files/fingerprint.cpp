@@ -16,7 +16,8 @@ std::string fingerprint(const void* bytes, std::size_t count) {
 }
 
 std::string fileFingerprint(const std::string& file) {
-  // Of its pieces, then of those: the hash wants all bytes at once, and the file may be large.
+  // A hash of the hashes of its pieces: the hash function needs all bytes at once, and the file may
+  // be large.
   constexpr std::size_t kPiece = 1 << 20;
   std::ifstream in(file, std::ios::binary);
   std::vector<char> piece(kPiece);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names for contents.
+// Hashes of contents, used as names.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -8,7 +8,7 @@ namespace vestige {
 
 /// 32 hexadecimal digits, the same on every machine for the same bytes.
 std::string fingerprint(const void* bytes, std::size_t count);
-/// Of a file's contents; "" if it cannot be read.
+/// Fingerprint of a file's contents; "" if it cannot be read.
 std::string fileFingerprint(const std::string& file);
 
 }  // namespace vestige

@@ -8,14 +8,14 @@
 namespace vestige {
 namespace {
 
-/// Of all choices, this share is spread evenly over the lights.
+/// The share of all choices that is spread evenly over the lights.
 constexpr double kEvenShare = 0.1;
-/// Where the lights of a node may be parted: places that are tried along each axis.
+/// Number of candidate splits of a node along each axis.
 constexpr int kBins = 12;
 
 double sane(double power) { return std::isfinite(power) && power > 0 ? power : 0; }
 
-/// What a cluster costs [CK18 Sec. 4.1, simplified]: power, spread in space and in directions.
+/// Cost of a cluster [CK18 Sec. 4.1, simplified]: power, spread in space and in directions.
 Real cost(const LightCluster& c) noexcept {
   return c.power * lengthSquared(c.box.size()) * (Real(0.1) + 1 - std::cos(c.angle + c.reach));
 }
@@ -63,7 +63,7 @@ struct Bin {
   void add(const LightCluster& c) { cluster = cluster ? LightCluster(*cluster, c) : c; }
 };
 
-/// Where to part lights.
+/// A split of a node's lights.
 struct Part {
   Real cost = kInfinity;
   int axis = 0;
@@ -153,7 +153,7 @@ Real LightCluster::importance(Vec3 at) const noexcept {
   // The mean of 1 / distance^2 over the points of a ball as large as the box: at its centre three
   // over its radius squared, from its surface on about that of the centre.
   const Real near = power / std::max({d2, (d2 + diagonal2 / 7) / 3, Real(1e-20)});
-  // Within the sphere around the box nothing is known of directions.
+  // Inside the sphere around the box directions are unknown.
   const Real radius2 = diagonal2 / 4;
   if (!(d2 > radius2) || angle + reach >= kPi) return near;
   const Real away = std::acos(std::clamp(dot(axis, way) / std::sqrt(d2), Real(-1), Real(1)));
@@ -226,7 +226,7 @@ void LightTree::grow(std::int32_t node, std::span<std::int32_t> lights,
   auto middle = std::partition(lights.begin(), lights.end(), [&](std::int32_t l) {
     return clusters[std::size_t(l)].box.centre()[best.axis] < best.at;
   });
-  // All in one place, or nothing to choose by: in halves, so that the tree stays flat.
+  // All lights at one point, or no best split: split in halves, so that the tree stays flat.
   if (middle == lights.begin() || middle == lights.end())
     middle = lights.begin() + std::ptrdiff_t(lights.size() / 2);
   const auto first = std::int32_t(nodes_.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which light a vertex looks at: one that is likely to matter there.
+// Choice of one light at a vertex, by its estimated contribution.
 //
 // [CK18] Conty Estevez, Kulla. Importance sampling of many lights with adaptive tree splitting.
 //        HPG 2018.
@@ -17,7 +17,7 @@ class LightTable {
  public:
   /// A power that is not a number above 0 counts as 0.
   void build(const std::vector<double>& powers);
-  /// Takes the chances as they are; their sum is 1.
+  /// Uses the given probabilities, whose sum is 1.
   void set(const std::vector<double>& chances);
   bool isEmpty() const noexcept { return chances_.empty(); }
   /// Draws an entry by u in [0,1).
@@ -32,7 +32,7 @@ class LightTable {
   std::vector<Real> chances_, upTo_;
 };
 
-/// What is known of some lights from afar.
+/// Bounds of a set of lights.
 struct LightCluster {
   Bounds box;
   Vec3 axis{0, 0, 1};    ///< unit, amid the directions in which they shine
@@ -50,12 +50,13 @@ struct LightCluster {
 /// A binary tree over all lights with a known extent. The others (at infinity, or of unknown
 /// extent) are chosen by power beside the tree. Where there are lights at infinity and finite ones,
 /// each of the two groups gets half of the choices: the power of a sky grows with the scene and
-/// says little about what arrives at a point indoors. Lights that are not drawn have no chance.
+/// is a poor estimate of its contribution indoors. Lights that are not drawn have probability 0.
 class LightTree {
  public:
   void build(std::span<const Light* const> lights);
 
-  /// Nullopt: there is no light, or none of those in the branch that u leads to reaches the receiver.
+  /// Nullopt: there is no light, or none of those in the branch that u leads to reaches the
+  /// receiver.
   std::optional<LightChoice> choose(const Receiver& r, Real u) const noexcept;
   /// The probability that choose() returns this light, [0,1].
   Real chance(int light, const Receiver& r) const noexcept;
@@ -74,9 +75,10 @@ class LightTree {
   double growAll(std::span<std::int32_t> lights, std::vector<LightCluster>& clusters);
   void grow(std::int32_t node, std::span<std::int32_t> lights,
             const std::vector<LightCluster>& clusters);
-  /// Whether nothing of the tree reaches a point and its share goes to the lights beside it.
+  /// Whether no light of the tree reaches a point; its share then goes to the lights beside it.
   bool skipsTree(Vec3 at) const noexcept;
-  /// Of the first of two neighbours, in place of the second; nullopt: nothing arrives from either.
+  /// Probability of the first of two children against the second; nullopt: neither reaches the
+  /// receiver.
   std::optional<Real> firstChance(std::int32_t first, Vec3 at) const noexcept;
 
   LightTable table_;                   ///< lights as in outside_, then the tree

@@ -55,7 +55,8 @@ class AnalyticLight final : public SurfaceLight {
     const Vec3 from = r.position;
     if (!(conePdf(from) > 0)) return SurfaceLight::sampleDerivatives(r, u);
     const ConeJacobian c = shape_->towardDerivatives(place_.toObject.point(from), u);
-    // Directions turn by the linear part over its scale; the eye comes through the inverse.
+    // Directions are rotated by the linear part over its scale; the receiver is transformed by the
+    // inverse.
     const Mat3 turn = (1 / std::sqrt(place_.areaScale)) * place_.linear;
     return {turn * c.du, turn * c.dFrom * place_.toObject.linear()};
   }
@@ -146,7 +147,7 @@ class MeshLight final : public SurfaceLight {
       const Triangles::Edges e = triangles_.edges(k);
       edge = std::max({edge, maxAbsComponent(e.ab), maxAbsComponent(e.ac)});
     }
-    // As World has it for an instance, which the mesh may be.
+    // As in World for an instance, since the mesh may be one.
     const Place place(p.toWorld);
     offset_ = kRayError * (edge + place.condition * (reachOf(triangles_.bounds()) + place.shift));
   }

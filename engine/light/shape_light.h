@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes that shine, as lights.
+// Lights made of emitting shapes.
 #pragma once
 #include <functional>
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace vestige {
 
-/// A shape that shines, as a light: drawn by area (by cone where the shape offers it), in world
-/// space. `radiance` is asked with the surface point (uv, position) and must be thread-safe.
+/// An emitting shape as a light, in world space: sampled by area, or by solid angle if the shape
+/// supports it. `radiance` is called with the surface point (uv, position) and must be thread-safe.
 std::unique_ptr<Light> makeShapeLight(const Placement& placement,
                                       std::function<Rgb(const SurfacePoint&)> radiance,
                                       bool twoSided, Rgb meanRadiance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shining surface as a light, whatever draws the points: its points are uniform by area in some
-// space of their own, its radiance does not depend on the direction.
+// Base of lights with an emitting surface. Points are uniform by area in some space of their own;
+// the radiance does not depend on the direction.
 //
 // [MATH] docs/mathematics.md: 1.11 next-event estimation, 1.12 emission, 1.14 gradients.
 #pragma once
@@ -17,7 +17,7 @@ class SurfaceLight : public Light {
       : radiance_(std::move(radiance)), mean_(meanRadiance), twoSided_(twoSided) {}
 
   LightTraits traits() const noexcept final { return {.isDrawn = isDrawn_}; }
-  /// Lights no surfaces: neither rays are drawn towards it nor particles from it.
+  /// Excludes the light from next-event estimation and from the emission of particles.
   void hide() noexcept { isDrawn_ = false; }
   std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override;
   Real pdf(const Receiver& r, const LightHit& hit) const noexcept override;
@@ -36,7 +36,7 @@ class SurfaceLight : public Light {
   virtual Real areaPdf(Vec3 normal) const noexcept = 0;
   /// World area.
   virtual Real area() const noexcept = 0;
-  /// As if it shone to one side only.
+  /// The extent of the light as if it emitted from one side only.
   virtual LightExtent oneSided() const noexcept = 0;
 
   bool shinesTo(Vec3 normal, Vec3 toLight) const noexcept {
@@ -52,7 +52,7 @@ class SurfaceLight : public Light {
   Real offset_ = 0;  ///< LightHit::offset of all samples
 
  private:
-  /// The side a particle leaves by, and what is left of the number that chose it.
+  /// The side from which a particle is emitted, and the rescaled random number that chose it.
   struct Side {
     Real sign;
     Vec2 u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How two pictures differ, by number and by eye.
+// The difference of two pictures, by error measures and by perception.
 #pragma once
 #include "engine/picture/image.h"
 

@@ -16,7 +16,7 @@ namespace vestige {
 
 namespace {
 
-/// What is handed to the library: numbers of one type, interleaved, top row first.
+/// The library's input: numbers of one type, interleaved, top row first.
 struct Pixels {
   OIIO::ImageSpec spec;
   OIIO::TypeDesc format;
@@ -71,7 +71,7 @@ Pixels linearPixels(const Image& image, PictureKind kind, const WriteOptions& op
   return p;
 }
 
-/// For looking at: through the colour config, 8 bits, rounded, no dither.
+/// For display: converted by the colour config, 8 bits, rounded, no dither.
 bool displayPixels(const Image& image, const WriteOptions& options, Pixels& p, std::string& error) {
   const auto transform = forDisplay(options.display, error);
   if (!transform) return false;

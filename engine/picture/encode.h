@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a picture to the bytes of a file, private to engine/picture.
+// Encodes a picture as the bytes of a file, private to engine/picture.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@ namespace vestige {
 
 enum class PictureKind { none, exr, hdr, tiff, png, jpeg };
 
-/// In memory, not in a file: the libraries behind some formats end the program, or say nothing,
+/// In memory, not in a file: the libraries behind some formats end the program, or report no error,
 /// when the disk is full. False with `error`.
 bool encodePicture(const Image& image, PictureKind kind, const WriteOptions& options,
                    std::vector<unsigned char>& bytes, std::string& error);

@@ -19,7 +19,7 @@ using Plane = std::vector<float>;  ///< [height][width]
 struct Size {
   int width, height;
 
-  /// Of a pixel in a plane; beyond the edge it is the edge's.
+  /// Value of a pixel in a plane; outside it that of the nearest edge pixel.
   std::size_t at(int x, int y) const {
     return std::size_t(std::clamp(y, 0, height - 1)) * width + std::clamp(x, 0, width - 1);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The difference that an eye sees when it flips between two pictures, private to engine/picture.
+// The perceived difference when flipping between two pictures, private to engine/picture.
 #pragma once
 #include <vector>
 

@@ -24,17 +24,17 @@ struct Image {
   std::size_t offset(int x, int y) const { return (std::size_t(y) * width + x) * channels.size(); }
 };
 
-/// Any format that OpenImageIO reads, without colour conversion; nullopt-like: empty() width and
-/// `error`.
+/// Reads any format that OpenImageIO supports, without colour conversion; on failure the width is 0
+/// and `error` is set.
 Image readImage(const std::string& file, std::string& error);
 
 struct WriteOptions {
   Display display;         ///< for PNG, JPEG and other integer formats
   bool halfFloat = false;  ///< for EXR
 };
-/// By the ending: EXR, HDR, TIFF linear with all channels; PNG, JPEG RGB through OpenColorIO.
-/// Writes beside the target and renames, so that a full disk never leaves half a picture under its
-/// name. False with `error` in the user's words.
+/// Writes a picture in the format of the file's ending: EXR, HDR, TIFF linear with all channels;
+/// PNG, JPEG RGB through OpenColorIO. Writes beside the target and renames, so that a full disk
+/// never leaves half a picture under its name. False with `error` in the user's words.
 bool writeImage(const std::string& file, const Image& image, const WriteOptions& options,
                 std::string& error);
 

@@ -73,7 +73,7 @@ int writeBytes(const fs::path& file, const std::vector<unsigned char>& bytes) {
   return code;
 }
 
-/// Writes beside the target, then renames: whoever looks sees the old file or the new one.
+/// Writes beside the target, then renames: readers see the old file or the new one.
 int replaceFile(const fs::path& target, const std::vector<unsigned char>& bytes) {
   const fs::path draft = folderOf(target) / fmt::format(".vestige-{}.part", getpid());
   std::error_code error, ignored;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Those that the engine has an interface for.
+/// The kinds for which the engine has an interface.
 constexpr std::array<std::string_view, 8> kKinds = {"brdf",   "camera", "integrator", "light",
                                                     "medium", "phase",  "pigment",    "shape"};
 
@@ -51,12 +51,12 @@ std::string refusal(const VestigePlugin& e) {
   return "";
 }
 
-/// The loader knows libraries by name and would give the old one again for a file that was built
-/// anew: such a file is opened as a copy under another name. Null with the loader's words in `why`.
+/// The loader identifies libraries by name and would return the old one for a rebuilt file, so such
+/// a file is opened as a copy under another name. Null, with the loader's message in `why`.
 void* openLibrary(const std::string& file, std::string& why) {
   struct Opened {
     fs::file_time_type written;
-    std::string name;  ///< that the loader knows it by
+    std::string name;  ///< under which the loader has opened it
   };
   static std::map<std::string, Opened> known;
   std::error_code failed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One plugin library: what its file's name promises, and what is in it once it is opened.
+// One plugin library: the plugin that its file name announces, and its contents once it is opened.
 #pragma once
 #include <compare>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace vestige {
 
-/// By what a scene asks for a plugin: `brdf phong`. Blocks that are no plugins have a kind only.
+/// The name of a plugin in a scene: `brdf phong`. Blocks that are no plugins have a kind only.
 struct PluginName {
   std::string kind, name;
   auto operator<=>(const PluginName&) const = default;
@@ -27,13 +27,12 @@ struct Plugin {
 /// Names of the libraries in a folder, sorted. None of them is opened.
 std::vector<std::string> librariesIn(const std::string& folder);
 
-/// `.../brdf_phong.so` promises brdf phong. A file whose name has no known kind, or no word of the
-/// language after it, promises nothing.
+/// `.../brdf_phong.so` announces brdf phong. A file whose name has no known kind, or no word of the
+/// language after it, announces no plugin.
 std::optional<PluginName> promisedBy(const std::string& file);
 
-/// Opens one library and checks it; nullopt with the reason in `why`. What is there must be what
-/// was promised, if something was: found under one name and used under another, it would be known
-/// only to those who have asked for the wrong one.
+/// Opens one library and checks it; nullopt with the reason in `why`. Its plugin must be the
+/// announced one, if the file name announces one.
 std::optional<Plugin> openPlugin(const std::string& file, const std::optional<PluginName>& promised,
                                  std::string& why);
 

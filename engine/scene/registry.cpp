@@ -38,19 +38,20 @@ std::string noteOnDifferences(const Plugin& plugin) {
                      plugin.kind, plugin.name, missing);
 }
 
-/// What is known of the folders so far; grows as libraries are opened.
+/// The plugins known so far; grows as libraries are opened.
 class Registry::Catalogue {
  public:
   Catalogue();
-  /// The next library of the folders: noted if its name says what it holds, opened if not.
+  /// Processes the next library of the folders: notes it if its name announces a plugin, else opens
+  /// it.
   void add(const std::string& file, std::vector<std::string>& refusedNow);
   /// After these nothing of that name, that kind, nothing at all waits.
   void open(const PluginName& wanted);
   void openKind(const std::string& kind);
   void openAll();
 
-  /// Files that promise a plugin, unopened, in the order of their folders. They came later than
-  /// what `plugins` has under the same name.
+  /// Unopened files whose names announce a plugin, in the order of their folders. They have
+  /// precedence over a plugin of the same name in `plugins`.
   std::map<PluginName, std::vector<std::string>> waiting;
   std::map<PluginName, Plugin> plugins;
   std::map<PluginName, Schema> schemas;  ///< of plugins and of blocks that are none

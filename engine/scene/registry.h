@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds plugin libraries, and loads one when its plugin is asked for. Built-in plugins take the
-// same way as a stranger's.
+// Finds plugin libraries, and loads one when its plugin is requested. Built-in and third-party
+// plugins are treated alike.
 #pragma once
 #include <memory>
 #include <string>
@@ -13,61 +13,61 @@
 
 namespace vestige {
 
-/// For the user: that derivatives of this plugin are taken by finite differences, and which.
+/// A note for the user: the derivatives of this plugin that are taken by finite differences.
 std::string noteOnDifferences(const Plugin& plugin);
 
-/// A library that was asked for and could not be taken.
+/// A library that was requested and refused.
 struct Refusal {
-  PluginName promised;  ///< by the name of its file
+  PluginName promised;  ///< announced by its file name
   std::string file;
   std::string sentence;  ///< for the user: which file, and why
 };
 
-/// All plugins of some folders. A library is opened when somebody asks for what its file's name
-/// promises: a scene pays for the plugins that it names, and hears nothing of a broken one that it
-/// does not. So these functions are const in what they answer, not in what they do: ask on one
-/// thread only, the one that reads and builds scenes. What they return lives as long as the
-/// registry.
+/// All plugins of some folders. A library is opened on the first request for the plugin that its
+/// file name announces: a scene loads only the plugins that it names, and broken libraries that it
+/// does not name cause no errors. So these functions return the same results on every call but are
+/// not thread-safe: call them only on the thread that reads and builds scenes. Their results live
+/// as long as the registry.
 class Registry {
  public:
   /// Lists the libraries of these folders, in order; a later one of the same kind and name replaces
-  /// an earlier, unless it is refused. Those whose file names promise nothing are opened now:
-  /// `refused` receives a sentence for each of them that was not taken, with the reason.
+  /// an earlier, unless it is refused. Libraries whose file names announce no plugin are opened
+  /// now: `refused` receives a message for each that was refused, with the reason.
   static Registry load(const std::vector<std::string>& folders, std::vector<std::string>& refused);
   Registry(Registry&&) noexcept;
   ~Registry();
 
   /// Whether no library was found, fit or not.
   bool isEmpty() const;
-  /// How many plugins are loaded by now.
+  /// Number of plugins loaded so far.
   std::size_t loaded() const;
 
-  /// Whether there is such a plugin or block, as far as names of files tell. Opens nothing, and
-  /// always answers the same.
+  /// Whether there is such a plugin or block, judged by file names. Opens no library; the result
+  /// never changes.
   bool has(const std::string& kind, const std::string& name) const;
-  /// Null where there is none, or none that can be taken: whyMissing().
+  /// The plugin, or null if there is none or it was refused: see whyMissing().
   const Plugin* find(const std::string& kind, const std::string& name) const;
   /// A plugin's schema with the rows that the engine adds to its kind (opacity, normal_map,
   /// emission, ...), or that of a block that is no plugin (film, union, ...).
   const Schema* schema(const std::string& kind, const std::string& name) const;
-  /// The reason if a library was to hold this plugin but was refused, else "".
+  /// The reason why the library of this plugin was refused, else "".
   std::string whyMissing(const std::string& kind, const std::string& name) const;
 
   /// First words of blocks: "brdf", "film", ... Opens nothing.
   std::vector<std::string> kinds() const;
-  /// What there is of one kind, by name. Opens all its libraries.
+  /// All plugins of one kind, by name. Opens all its libraries.
   std::vector<std::string> names(const std::string& kind) const;
   /// Everything, by kind and name. These open all libraries.
   std::vector<Plugin> plugins() const;
   std::vector<const Schema*> schemas() const;
 
-  /// Files of all plugins that are loaded by now.
+  /// Files of all plugins loaded so far.
   std::vector<std::string> loadedFiles() const;
-  /// What was asked for so far in vain.
+  /// The libraries requested and refused so far.
   const std::vector<Refusal>& refused() const;
 
   /// Creates an object of plugin `kind name`; null with `error` filled. Interface must be the
-  /// kind's. The host is told a note where the plugin leaves derivatives to differences.
+  /// kind's. Notifies the user once if the plugin relies on finite-difference derivatives.
   template <class Interface>
   std::shared_ptr<Interface> create(const std::string& kind, const std::string& name,
                                     const Values& values, Host& host, VestigeError& error) const {
@@ -87,11 +87,11 @@ class Registry {
 
 /// The folder that holds bin/, lib/ and share/ of this installation: found beside the program.
 std::string installationFolder();
-/// Where in it are the plugins, the language includes, and the templates of new plugins.
+/// Its folders of plugins, of language includes, and of templates for new plugins.
 std::string installedPluginFolder();
 std::string installedIncludeFolder();
 std::string installedTemplateFolder();
-/// Where a user keeps plugins of his own, ~/.local/lib/vestige; "" for one without a home.
+/// The user's own folder of plugins, ~/.local/lib/vestige; "" without a home folder.
 std::string userPluginFolder();
 /// The installed folder, that of the user, VESTIGE_PLUGIN_PATH, then `extra`: what comes later
 /// goes before.

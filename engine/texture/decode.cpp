@@ -56,7 +56,7 @@ DecodeTable makeHalfTable(const Encoding& e) {
   return table;
 }
 
-/// Each table is made once and dies with the last texture that uses it.
+/// Each table is created once and destroyed with the last texture that uses it.
 template <class Make>
 std::shared_ptr<const DecodeTable> shared(int bits, bool half, const Encoding& e, Make make) {
   static std::mutex mutex;

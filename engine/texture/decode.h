@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From code values to linear light, private to engine/texture.
+// Decodes code values to linear light, private to engine/texture.
 #pragma once
 #include <OpenImageIO/imageio.h>
 
@@ -19,9 +19,9 @@ struct Encoding {
   std::shared_ptr<const ColourTransform> transform;  ///< of Kind::config: mixes channels
 };
 
-/// What `colourSpace` asks for, or the file's metadata if it is "": integers are sRGB unless the
-/// file says linear or another exponent, floating point is linear. (The name that a converted .tx
-/// file carries is still that of its source, so it is not believed for floating point.)
+/// The decoding for `colourSpace`, or by the file's metadata if it is "": integers are sRGB unless
+/// the file's metadata are linear or another exponent, floating point is linear. (The name that a
+/// converted .tx file carries is still that of its source, so it is ignored for floating point.)
 /// False with `error`.
 bool chooseEncoding(const OIIO::ImageSpec& spec, const std::string& colourSpace, Encoding& encoding,
                     std::string& error);

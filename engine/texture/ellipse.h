@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a footprint to the weights of texels, private to engine/texture.
+// Weights of texels for a footprint, private to engine/texture.
 //
 // The filter is an elliptical weighted average [Hec89 3.5] over a level of the pyramid that is fine
 // enough for the ellipse's minor axis. What a texel weighs is a bump of the quadratic form q of the
@@ -35,7 +35,7 @@ struct Moments {
 
 /// A bilinear lookup spreads a texel over a tent of this variance, and so the filter must.
 inline constexpr float kTent = 1 / 6.f;
-/// Axes beyond this many times the picture are cut: nothing is to be seen there any more.
+/// Axes are clamped to this many times the picture, beyond which the average is constant.
 inline constexpr float kMostPeriods = 16;
 /// Longer ellipses are widened: this bounds what one lookup costs.
 inline constexpr float kMostAspect = 32;
@@ -70,7 +70,7 @@ inline Moments boundedProducts(const Vec2 d[2], std::int32_t width, std::int32_t
   return {m.xx * sx * sx, m.xy * sx * sy, m.yy * sy * sy};
 }
 
-/// What a lookup has to do.
+/// The work of one lookup.
 struct Wanted {
   float longest = 0;    ///< full length of the longest axis, texels
   Moments covariance;   ///< of the footprint, texels of the full resolution
@@ -132,7 +132,7 @@ inline Bump bumpOn(const Level& level, Moments c, bool anyX, bool anyY) noexcept
   return b;
 }
 
-/// Brings a coordinate near the picture without changing what is seen there; 0 for what is none.
+/// Moves a coordinate near the picture without changing its texel; 0 for NaN.
 inline Real broughtHome(Real t, Wrap wrap) noexcept {
   if (!(std::abs(t) < Real(1e9))) t = 0;
   if (wrap == Wrap::clamp) return std::clamp(t, Real(-kMostPeriods), Real(kMostPeriods + 1));

@@ -43,7 +43,7 @@ class MemoryTexels {
   const Table<Level>& levels() const noexcept { return texels_->pyramid.levels; }
   Rgba mean() const noexcept { return texels_->mean; }
 
-  /// A texel of the full resolution, decoded when asked.
+  /// A texel of the full resolution, decoded on request.
   struct Texel {
     const MemoryTexels& of;
     const Code* at;

@@ -43,7 +43,7 @@ OIIO::ImageCache::Tile* PagedFile::tile(int level, int x, int y, OIIO::TypeDesc:
                                         const void*& numbers) const noexcept {
   OIIO::ImageCache& library = cache_->library();
   try {
-    // Asked again for what it failed to read, the library may answer with a tile never filled.
+    // After a failed read the library may return an uninitialised tile on the next request.
     const bool bad = failures_ > 0 && isBad(level, x, y);
     OIIO::ImageCache::Tile* tile =
         bad ? nullptr : library.get_tile(handle_, cache_->thread(), 0, level, x, y, 0);

@@ -19,7 +19,7 @@ namespace vestige {
 
 class PageCache {
  public:
-  /// Less would throw tiles away that the next lookup wants again.
+  /// With less memory, tiles would be evicted before the next lookup needs them.
   static constexpr std::size_t kLeastBytes = std::size_t(32) << 20;
 
   PageCache();
@@ -32,7 +32,7 @@ class PageCache {
   std::size_t limit() const noexcept { return limit_; }
   std::size_t bytesUsed() const;
   OIIO::ImageCache& library() const noexcept { return *cache_; }
-  /// What the library keeps for the thread that asks [any thread].
+  /// The library's data for the calling thread [any thread].
   OIIO::ImageCache::Perthread* thread() const {
     // By number: a later cache may lie at the same address.
     thread_local std::uint64_t known = 0;
@@ -80,7 +80,7 @@ class PagedFile {
   OIIO::ImageCache::ImageHandle* handle_;
   mutable std::atomic<std::size_t> failures_ = 0;
   mutable std::mutex badTilesMutex_;
-  mutable std::set<std::tuple<int, int, int>> badTiles_;  ///< level, x, y as asked for
+  mutable std::set<std::tuple<int, int, int>> badTiles_;  ///< level, x, y as requested
 
   bool isBad(int level, int x, int y) const {
     const std::lock_guard lock(badTilesMutex_);

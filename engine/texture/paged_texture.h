@@ -86,7 +86,7 @@ class PagedTexels {
       const Number* numbers = nullptr;
     };
 
-    /// Those of a tile. The next call may take them away.
+    /// The numbers of a tile, valid until the next call.
     const Number* numbers(int level, std::int32_t column, std::int32_t row) noexcept {
       Slot& slot = slots_[(column & 1) | (row & 1) << 1];  // neighbours have one each
       const std::uint64_t name =

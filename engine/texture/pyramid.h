@@ -24,8 +24,8 @@ struct Level {
 };
 
 /// All levels but the full resolution. Each has half the size of the one before, rounded up, so
-/// none is coarser than its number says; the last is one texel.
-/// Linear light, channels averaged each by itself: colour is not premultiplied.
+/// no level is coarser than 2^level; the last is one texel. Linear light, channels averaged each by
+/// itself: colour is not premultiplied.
 struct Pyramid {
   static constexpr float kUnitCodes = 65535;
 

@@ -52,7 +52,7 @@ using FourFloats = float __attribute__((vector_size(16)));
 ///   read(index, visit)  calls visit(rowAt, unit, border) for a level, 0 the full resolution:
 ///                    rowAt(y)(x) is a texel's four numbers, to be multiplied by unit; `border` as
 ///                    in wrappedIndex();
-///   failed()         whether a texel could not be had: then the texture's mean stands in.
+///   failed() whether a texel could not be read: the texture's mean replaces it.
 template <class Source>
 class FilteredTexture final : public Texture {
  public:
@@ -67,7 +67,7 @@ class FilteredTexture final : public Texture {
 
   Rgba lookup(Vec2 uv, const Vec2 dUv[2]) const noexcept override {
     const Moments m = outerProducts(dUv, width_, height_);
-    // The trace is an upper bound of the longest axis squared. NaN asks for a point.
+    // The trace is an upper bound of the longest axis squared. NaN means a point lookup.
     if (m.xx + m.yy > 1) return filtered(uv, dUv);
     Reader reader(source_);
     return checked(reader, bilinear(reader, uv));
@@ -93,7 +93,7 @@ class FilteredTexture final : public Texture {
     return reader.failed() ? source_.mean() : found;
   }
 
-  /// Most lookups are this alone, and the call would be a sixth of it.
+  /// Most lookups end here, and a call would take a sixth of their time.
   [[gnu::always_inline]] Rgba bilinear(Reader& reader, Vec2 uv) const noexcept {
     const Neighbours x = neighbours(uv.x, width_, wrapU_), y = neighbours(uv.y, height_, wrapV_);
     const auto a = reader.texel(x.first, y.first), b = reader.texel(x.second, y.first);

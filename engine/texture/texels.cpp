@@ -32,7 +32,7 @@ std::vector<int> chooseChannels(const OIIO::ImageSpec& spec) {
   return list;
 }
 
-/// Of `from` interleaved channels keeps those of `list` (indices into the `from`), in that order.
+/// Keeps the channels of `list` (indices) out of `from` interleaved ones, in that order.
 template <class Code>
 void keepChannels(std::vector<Code>& codes, int from, const std::vector<int>& list) {
   bool asTheyAre = int(list.size()) == from;
@@ -151,7 +151,7 @@ struct Loading {
     return keep(std::move(array));
   }
 
-  /// Through float, and kept as float, or as halfs where the file had no more to say.
+  /// Converted through float; kept as halfs if the file has no more precision, else as float.
   bool floats(bool asHalfs) {
     TexelArray<float> array;
     if (!readCodes(input, file, channels, OIIO::TypeFloat, array.codes, error)) return false;
@@ -237,8 +237,8 @@ std::size_t bytesFor(const TexelPlan& p) {
          pyramidNumbers(pyramidLevels(p.width, p.height, p.channels), p.channels) * level;
 }
 
-/// What the encoding does, in words, and where a transform of the colour config does it, in what it
-/// makes of a grid of colours: a config may change behind its name.
+/// A description of the encoding. For a transform of the colour config it includes the results for
+/// a grid of colours, because a config may change under the same name.
 std::string keyOf(const Encoding& e) {
   std::string key = fmt::format("{} {}", int(e.kind), e.exponent);
   if (e.kind != Encoding::Kind::config) return key;

@@ -40,7 +40,7 @@ struct Texels {
 /// How texels are held: uint8_t, uint16_t and the bits of halfs with tables, or floats.
 enum class Storage { bytes, shorts, halfs, floats };
 
-/// What loadTexels() will make of a file, worked out from its header alone.
+/// The plan of loadTexels() for a file, derived from its header.
 struct TexelPlan {
   int width = 0, height = 0, channels = 0;
   Storage storage = Storage::floats;
@@ -53,7 +53,7 @@ struct TexelPlan {
     return storage == Storage::bytes || storage == Storage::shorts;
   }
 };
-/// Nothing with `error`.
+/// Nothing, with the reason in `error`.
 std::optional<TexelPlan> planTexels(const std::string& file, const std::string& colourSpace,
                                     std::string& error);
 

@@ -28,8 +28,7 @@ namespace {
 
 std::string title() { return fmt::format("vestige texture {}", kTextureFileVersion); }
 
-/// In the one field of text that TIFF has for us. Numbers are written so that they come back as
-/// they were.
+/// Stored in TIFF's only free text field. Numbers are written with all digits.
 std::string description(const Texels& t, const std::string& key) {
   return fmt::format("{}\n{}\n{} {} {} {}\n{}\n", title(), key, t.mean.colour.r, t.mean.colour.g,
                      t.mean.colour.b, t.mean.alpha, t.nonFinite);
@@ -70,7 +69,7 @@ template <class Number>
 using FillRow = std::function<void(int y, Number* row)>;
 
 /// A row of tiles at a time. What lies beyond the edge is 0: left to the library it would be
-/// whatever memory held. False if the library says so.
+/// whatever memory held. False if the library fails.
 template <class Number>
 bool writeLevel(OIIO::ImageOutput& out, const FillRow<Number>& fillRow) {
   const OIIO::ImageSpec spec = out.spec();
@@ -165,7 +164,7 @@ bool writeTextureFile(const std::string& file, const Texels& texels, const Texel
   else if (!writeAll(*out, draft, texels, key) || !reachesDisk(draft))
     why = out->has_error() ? reason(out->geterror(), draft) : "it could not be written";
   std::error_code code;
-  // Some writers notice too late that the disk was full, so their word is not enough.
+  // Some writers report success on a full disk, so the file is checked again.
   if (why.empty() && !readTextureFile(draft, plan, key)) why = "it came out incomplete";
   if (!why.empty() && fs::space(folder, code).available < plan.bytes && !code)
     why = "the disk is full";
@@ -181,7 +180,7 @@ std::optional<TextureFacts> readTextureFile(const std::string& file, const Texel
                                             const std::string& key) {
   const auto input = OIIO::ImageInput::open(file);
   if (!input) {
-    OIIO::geterror();  // taken, so that it is not told with a later one
+    OIIO::geterror();  // cleared, so that it is not reported with a later error
     return std::nullopt;
   }
   const auto format = plan.isInteger() ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
@@ -192,7 +191,7 @@ std::optional<TextureFacts> readTextureFile(const std::string& file, const Texel
         s.format != format || s.tile_width != kTileSide || s.tile_height != kTileSide ||
         s.depth > 1 || s.x != 0 || s.y != 0)
       return false;
-    // What was cut off a file is missing in some level's last tile, even if all headers are there.
+    // A truncated file lacks the last tile of some level, even if all headers are complete.
     const int x = (width - 1) / kTileSide * kTileSide, y = (height - 1) / kTileSide * kTileSide;
     return input->read_native_tile(0, index, x, y, 0, tile.data());
   };

@@ -15,17 +15,17 @@ namespace vestige {
 /// A power of 2, and what the library's own converter takes: 24 KB for three channels of 16 bits.
 inline constexpr int kTileShift = 6, kTileSide = 1 << kTileShift;
 
-/// To be raised whenever the same picture would give another file.
+/// Must be raised whenever the same picture would give another file.
 inline constexpr int kTextureFileVersion = 1;
 
-/// What is known of a texture without its texels.
+/// The properties of a texture without its texels.
 struct TextureFacts {
   Rgba mean;
   std::size_t nonFinite = 0;
 };
 
-/// Writes `texels`, which came of `plan`. To another name first: whoever looks sees a whole file or
-/// none. False with `why`.
+/// Writes `texels`, made by `plan`, under a temporary name and renames it, so that readers see a
+/// whole file or none. False with the reason in `why`.
 bool writeTextureFile(const std::string& file, const Texels& texels, const TexelPlan& plan,
                       const std::string& key, std::string& why);
 

@@ -27,7 +27,7 @@ using Source = std::variant<Held, Paged>;
 struct Picture {
   FileStamp stamp;  ///< before it was read
   TexelPlan plan;
-  std::string contents;  ///< fingerprint of the file; "" unless it was asked for
+  std::string contents;  ///< fingerprint of the file; "" unless it was needed
   Source source;
 
   /// Null where it is paged.

@@ -9,7 +9,7 @@
 
 namespace vestige {
 
-/// What textures cost, and what went wrong with them.
+/// Memory use and errors of textures.
 struct TextureUse {
   std::size_t held = 0;        ///< bytes of textures that are in memory whole
   int paged = 0;               ///< how many are read from files piece by piece
@@ -38,7 +38,7 @@ class TextureStore {
   /// texels are shared. What is held and what is paged is as without it.
   std::shared_ptr<const Texture> texture(const std::string& file, const TextureRequest& request,
                                          std::string& error, const TextureStore* before = nullptr);
-  /// What the user should know of the last texture though it was loaded, or "".
+  /// A warning about the last texture, which was loaded nevertheless, or "".
   std::string takeWarning();
   TextureUse use() const;
   /// Bytes held by all textures but paged ones.

@@ -5,9 +5,10 @@
 //     f = w R + T(prev.z) T(next.z) base,      T(c) = 1 - w F(c)
 //     R = F(prev . h) D(h) G1(prev) G1(next) / (4 prev.z next.z)
 //
-// w is `weight`, F the layer's reflectance. The layer is so thin that it bends no light: the base
-// sees the directions outside. Light that the layer throws back onto the base is lost, as in glTF's
-// clearcoat. It lies on the front alone: what passes the whole surface passes it once.
+// w is `weight`, F the layer's reflectance. The layer is thin, so it does not change directions:
+// the base receives those outside. Light reflected by the layer back to the base is lost, as in
+// glTF's clearcoat. The layer covers the front only: light transmitted by the whole surface passes
+// it once.
 //
 // [Wal07] Walter et al. Microfacet models for refraction through rough surfaces. EGSR 2007. Eq. 20
 #include <vestige/brdf.h>
@@ -108,8 +109,8 @@ class Coat final : public Brdf {
   struct Layer {
     Real weight, eta;
     Ggx ggx;
-    Real chance;  ///< of drawing its reflection: its energy, but at least a quarter where there is
-                  ///< a layer, for facets may see it at a flatter angle
+    Real chance;  ///< probability of drawing its reflection: its energy, but at least a quarter if
+                  ///< there is a layer, since facets may be hit at a flatter angle
 
     explicit Layer(const ScatterPoint& p) noexcept
         : weight(std::clamp(p.inputs.real(kWeight), Real(0), Real(1))),
@@ -123,7 +124,7 @@ class Coat final : public Brdf {
       const Fresnel f = fresnelDielectric(c, eta);
       return {weight * f.value, weight * f.slope};
     }
-    /// What passes along a direction, and its derivative by z. All of it behind the surface.
+    /// Transmittance along a direction, and its derivative by z. 1 behind the surface.
     Fresnel transmittedOf(Vec3 d, bool isFront) const noexcept {
       if (!isFront) return {1, 0};
       const Fresnel f = reflected(std::abs(d.z));
@@ -151,7 +152,7 @@ class Coat final : public Brdf {
     if (!(toNext.z > 0 && f.exists())) return std::nullopt;
     const Real density = facetPdf(layer.ggx, f, p.toPrev, toNext);
     if (!(density > 0)) return std::nullopt;
-    // From the drawn facet, as evaluate() cannot know a narrow one exactly.
+    // From the drawn facet, because evaluate() cannot reconstruct a narrow one exactly.
     const ScatterValue b = base_.brdf->evaluate(base_.at(p), toNext);
     const Real pdf = layer.chance * density + (1 - layer.chance) * b.pdf;
     const Rgb fCos =
@@ -160,7 +161,7 @@ class Coat final : public Brdf {
     return ScatterSample{toNext, fCos / pdf, pdf, density, layer.chance, 0, false};
   }
 
-  /// A sample of the base's with the value and density of the whole.
+  /// A sample of the base with the value and density of the whole.
   std::optional<ScatterSample> weighted(const ScatterPoint& p, ScatterSample s) const noexcept {
     const ScatterValue v = evaluate(p, s.toNext);
     if (!(v.pdf > 0)) return std::nullopt;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smooth surface of a clear solid of index `ior`: reflects by Fresnel's law, refracts the rest.
-// Where both indices are the same it is not there.
+// It has no effect if both indices are equal.
 #include <vestige/brdf.h>
 #include <vestige/plugin.h>
 #include <vestige/tools/fresnel.h>

@@ -16,7 +16,7 @@ class Lambert final : public Brdf {
   static Schema schema() {
     return {.kind = "brdf",
             .name = "lambert",
-            .summary = "matt: the same radiance in every direction",
+            .summary = "diffuse: the same radiance in every direction",
             .inputs = {rgb("diffuse", 0.5).range(0, 1).doc("reflected fraction")}};
   }
 
@@ -31,7 +31,7 @@ class Lambert final : public Brdf {
     return ScatterSample::only(toNext, p.inputs.rgb(kDiffuse), toNext.z / kPi);
   }
 
-  /// The direction depends on the normal alone.
+  /// The direction does not depend on toPrev.
   ScatterJacobian sampleDerivatives(const ScatterPoint&, ScatterNumbers n) const noexcept override {
     return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
   }

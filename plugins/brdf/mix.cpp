@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two BRDFs at once: the share `amount` of the second, the rest of the first.
+// A mixture of two BRDFs: the share `amount` of the second, the rest of the first.
 //
 //     f = (1 - amount) first + amount second,   channel by channel
 //
@@ -92,7 +92,7 @@ class Mix final : public Brdf {
   }
 
   Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    // Parts that let light pass agree on the surface's indices; ask one that is there.
+    // Transmitting parts agree on the surface's indices; use one with a share.
     const int i = partOf(p, 0).chance > 0 ? 0 : 1;
     return parts_[i].brdf->etaScale(parts_[i].at(p), toNext);
   }
@@ -100,12 +100,12 @@ class Mix final : public Brdf {
  private:
   struct Part {
     Rgb share;
-    Real chance;  ///< of drawing from it; 0 where its share is black
+    Real chance;  ///< probability of drawing from it; 0 if its share is black
   };
   struct Choice {
     int index;
     Part part;
-    Real rest;  ///< the number that chose, stretched over [0,1) again
+    Real rest;  ///< the random number that chose, rescaled to [0,1)
   };
 
   static Part partOf(const ScatterPoint& p, int i) noexcept {

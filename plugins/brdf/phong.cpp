@@ -92,7 +92,7 @@ class Phong final : public Brdf {
   }
 
  private:
-  /// Middle of a lobe and how it moves with toPrev.
+  /// Axis of a lobe, with its derivative by toPrev.
   struct Axis {
     Vec3 direction;  ///< unit; zero where reflection is total and nothing refracted
     Mat3 dPrev;
@@ -104,7 +104,7 @@ class Phong final : public Brdf {
 
   static Lobe side(Vec3 toNext) noexcept { return toNext.z > 0 ? kReflected : kRefracted; }
 
-  /// A texture may say anything.
+  /// A texture may hold any number.
   static Real exponent(const ScatterPoint& p) noexcept {
     return std::clamp(p.inputs.real(kExponent), Real(0), Real(1e6));
   }
@@ -117,7 +117,7 @@ class Phong final : public Brdf {
     return {t.direction, t.dPrev()};
   }
 
-  /// The lobe's colour, scaled so that both together give back no more than they get.
+  /// The lobe's colour, scaled so that both lobes together conserve energy.
   static Rgb fraction(const ScatterPoint& p, Lobe lobe) noexcept {
     const Rgb s = p.inputs.rgb(kSpecular), t = p.inputs.rgb(kTransmission), sum = s + t;
     const Rgb own = lobe == kReflected ? s : t;
@@ -130,7 +130,7 @@ class Phong final : public Brdf {
     return (n + 2) * power * std::abs(toNext.z) * fraction(p, side(toNext));
   }
 
-  /// By luminance; negative where there is no lobe to choose.
+  /// Probability of the lobe by luminance; negative if both are black.
   static Real reflectChance(const ScatterPoint& p) noexcept {
     const bool total = refractedCosine(p.toPrev.z, p.eta()) < 0;
     const Real s = luminance(fraction(p, kReflected));
@@ -157,8 +157,8 @@ class Phong final : public Brdf {
     return {{k.d.x * g, k.d.y * g, c}, {column(k.du[0]), column(k.du[1])}};
   }
 
-  /// cos^n a, dimensionless; 0 for a > 90 degrees. Near the axis from the sine: an exponent of 1e6
-  /// lives within a thousandth of a radian, where a float's cosine has three values.
+  /// cos^n a, dimensionless; 0 for a > 90 degrees. Near the axis it uses the sine: the lobe of
+  /// exponent 1e6 is a thousandth of a radian wide, where a float's cosine has three values.
   static Real cosPower(const Axis& a, Vec3 toNext, Real n) noexcept {
     const Real c = dot(a.direction, toNext);
     if (!(c > 0)) return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Metal, plastic, paint and coloured glass from a handful of numbers, as glTF means them.
+// Metal, plastic, paint and coloured glass from a few parameters, as in glTF.
 //
 //     f = metallic           M
 //       + (1 - metallic) (1 - transmission) (S + B)
@@ -9,8 +9,8 @@
 //   S, S' GGX reflection, F = specular * dielectric Fresnel of `ior`; S seen from outside always,
 //   S'
 //         from whichever side of a solid
-//   B     base_color / pi (1 - F(prev.z)) (1 - F(next.z)): what passed the surface twice
-//   T     GGX refraction, (1 - F) base_color
+//   B base_color / pi (1 - F(prev.z)) (1 - F(next.z)): light that passed the surface twice T GGX
+//   refraction, (1 - F) base_color
 //
 // A convex sum of models that each conserve energy and are reciprocal. glTF's own B, base_color /
 // pi (1 - F(prev . h)), gives more than it gets at grazing angles, so B has the separable form of
@@ -59,7 +59,8 @@ class Principled final : public Brdf {
     const Real density = m.lobePdf(d);
     const bool rightSide = d.lobe == kRefracted ? d.toNext.z < 0 : d.toNext.z > 0;
     if (!(rightSide && d.chance * density > 0)) return std::nullopt;
-    // Of one facet, so that narrow lobes cancel exactly; a diffuse direction has its own half-way.
+    // Weight by one facet, so that narrow lobes cancel exactly; a diffuse direction has its own
+    // half vector.
     const Facet f = d.lobe == kDiffuse ? facetBetween(p.toPrev, d.toNext, m.eta) : d.facet;
     const ScatterValue value = m.value(f, d.toNext);
     return ScatterSample{.toNext = d.toNext,
@@ -127,7 +128,7 @@ class Principled final : public Brdf {
   struct Chances {
     Real reflect = 0, refract = 0;
   };
-  /// What the random numbers chose, before it is known whether it leaves on the right side.
+  /// A direction chosen by the random numbers, before the test whether it leaves on the right side.
   struct Drawn {
     Lobe lobe;
     Real chance;
@@ -135,7 +136,7 @@ class Principled final : public Brdf {
     Facet facet;  ///< unless diffuse
   };
 
-  /// The inputs at one point, put into the terms of the formula above.
+  /// The inputs at one point, in the terms of the formula above.
   struct Model {
     Vec3 prev;
     Ggx ggx;
@@ -155,18 +156,18 @@ class Principled final : public Brdf {
           metal(unit(p.inputs.real(kMetallic))),
           opaque((1 - metal) * (1 - unit(p.inputs.real(kTransmission)))),
           clear((1 - metal) * unit(p.inputs.real(kTransmission))) {
-      // By energy at normal facets, but never below a tenth: facets may see it otherwise.
+      // By energy at normal facets, but never below a tenth: facets may be hit at other angles.
       const Real d = kPi * luminance(diffuse(1).value);
       const Real s = luminance(reflected(prev.z).value) +
                      luminance(refracted(prev.z, refractedCosine(prev.z, eta)).value);
       diffuseChance = d > 0 ? std::clamp(d / (d + s), Real(0.1), s > 0 ? Real(0.9) : Real(1)) : 0;
     }
 
-    /// A texture may say anything.
+    /// A texture may hold any number.
     static Real unit(Real x) noexcept { return std::clamp(x, Real(0), Real(1)); }
 
-    /// What a facet of a non-metal reflects and what it lets pass, by both cosines; t < 0 where
-    /// reflection is total.
+    /// Reflectance and transmittance of a dielectric facet, by both cosines; t < 0 where reflection
+    /// is total.
     Fresnel stopped(Real c, Real t, Real eta) const noexcept {
       const Fresnel f = t < 0 ? Fresnel{1, 0} : fresnelReflected(c, t, eta);
       return {specular * f.value, specular * f.slope};
@@ -203,7 +204,8 @@ class Principled final : public Brdf {
       return toNext.z > 0 ? reflected(f.cosPrev) : refracted(f.cosPrev, f.cosNext);
     }
 
-    /// Chances that a facet reflects or refracts, at cosine c; both 0 where it absorbs all.
+    /// Probabilities of reflection and refraction at a facet, at cosine c; both 0 where it absorbs
+    /// all light.
     Chances chances(Real c) const noexcept {
       const Real r = luminance(reflected(c).value);
       const Real t = luminance(refracted(c, refractedCosine(c, eta)).value);
@@ -228,13 +230,13 @@ class Principled final : public Brdf {
     }
   };
 
-  /// What a facet does, and the chance of it among facets.
+  /// Reflection or refraction at a facet, with its probability among facets.
   struct Choice {
     Lobe lobe;
     Real chance;  ///< 0: it absorbs
   };
 
-  /// Decided by what is left of the number that picked facets.
+  /// Chosen by the rescaled random number that chose facets.
   static Choice choose(const Model& m, Vec3 h, Real lobe) noexcept {
     const Real rest = (lobe - m.diffuseChance) / (1 - m.diffuseChance);
     const Chances chance = m.chances(std::max(dot(m.prev, h), Real(0)));

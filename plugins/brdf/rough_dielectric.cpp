@@ -79,13 +79,13 @@ class RoughDielectric final : public Brdf {
   }
 
   Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    return toNext.z < 0 ? sqr(eta(p)) : 1;  // the index that is computed with
+    return toNext.z < 0 ? sqr(eta(p)) : 1;  // the index used for facets
   }
 
  private:
   struct Choice {
     bool reflects;
-    Real chance;  ///< of what was chosen
+    Real chance;  ///< probability of the chosen lobe
   };
 
   static Ggx ggx(const ScatterPoint& p) noexcept { return Ggx(p.inputs.real(kAlpha)); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parallel projection: rays start on a rectangle across the view, so nothing behind `location` is
-// seen and size does not depend on distance.
+// Parallel projection: rays start on a rectangle perpendicular to the view, so objects behind
+// `location` are invisible and size does not depend on distance.
 #include <vestige/tools/view_frame.h>
 
 namespace vestige {

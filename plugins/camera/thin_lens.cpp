@@ -3,8 +3,8 @@
 //
 // A film point is seen sharply at `focus` = eye + f d, with d as in camera pinhole and f the
 // distance of the plane of focus along the view; the ray to it starts anywhere on the lens
-// [MATH 1.2]. The lens is an event of its own: forget its two variables and textures blur exactly
-// where the picture is sharp.
+// [MATH 1.2]. The lens adds two random numbers: without their derivatives, textures would blur
+// exactly where the picture is sharp.
 #include <vestige/tools/sampling.h>
 #include <vestige/tools/view_frame.h>
 
@@ -94,9 +94,9 @@ class ThinLens final : public Camera {
     return f;
   }
 
-  /// From the eye to a point of the lens, given on the unit disk.
+  /// Vector from the eye to a point of the lens, given on the unit disk.
   Vec3 onLens(Vec2 d) const noexcept { return lensRadius_ * (d.x * view_.right + d.y * view_.up); }
-  /// From the lens to the plane of focus; the direction is as long as the way.
+  /// Ray from the lens to the plane of focus; the direction has the length of the distance.
   Ray ray(CameraNumbers n) const noexcept {
     const Vec3 lens = onLens(concentricDisk(n.lens).d);
     return {view_.location + lens, focus_ * film_.toPoint(view_, n.film, n.aspect) - lens};

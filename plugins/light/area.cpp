@@ -46,7 +46,7 @@ class Area final : public Light {
     if (!(area_ > Real(1e-6) * length(edge_.c[0]) * length(edge_.c[1])))
       throw PluginError(kEdge2, "edge2 " + words(values.vec3(kEdge2)) + " is parallel to edge1 " +
                                     words(values.vec3(kEdge1)) + ": the light has no area");
-    // A transform that mirrors takes the shining side along.
+    // A mirroring transform also mirrors the emitting side.
     const bool mirrored = values.toWorld().determinant() < 0;
     normal_ = (mirrored ? Real(-1) : Real(1)) * across / area_;
     offset_ = kRayError * std::max(maxAbsComponent(edge_.c[0]), maxAbsComponent(edge_.c[1]));
@@ -121,7 +121,8 @@ class Area final : public Light {
   Rgb power() const noexcept override { return (twoSided_ ? 2 : 1) * kPi * area_ * radiance_; }
 
  private:
-  /// The side that a particle leaves by. Two-sided, the first number's halves choose it.
+  /// The side from which a particle is emitted. If two-sided, the halves of the first random number
+  /// choose it.
   struct Side {
     Vec3 normal;
     Vec2 u;
@@ -137,7 +138,7 @@ class Area final : public Light {
 
   Vec3 at(Vec2 u) const noexcept { return corner_ + edge_ * u; }
 
-  /// Of the angle at the light; 0 where it does not shine.
+  /// Cosine at the light; 0 where it does not emit.
   Real cosine(Vec3 toLight) const noexcept {
     const Real c = -dot(normal_, toLight);
     return twoSided_ ? std::abs(c) : std::max(c, Real(0));
@@ -147,7 +148,7 @@ class Area final : public Light {
   Mat3x2 edge_;
   Rgb radiance_;
   bool twoSided_;
-  Vec3 normal_;  ///< unit, the shining side's
+  Vec3 normal_;  ///< unit, on the emitting side
   Real area_;    ///< world, scene units squared
   Real offset_;  ///< LightHit::offset
   TriangleMesh mesh_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parallel light from infinitely far away: a sun without size.
+// Parallel light from infinity: a sun of zero size.
 #include <vestige/delta_light.h>
 
 namespace vestige {

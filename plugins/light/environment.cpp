@@ -3,7 +3,7 @@
 //
 // The image's middle column lies towards +z, u grows towards +x and v towards +y: with the world
 // left-handed it is unmirrored from inside, and camera panorama, looking along +z, shows the image
-// itself. Transforms turn it. What is negative or not finite counts as black.
+// itself. Transforms rotate it. Negative and non-finite values count as black.
 //
 // Directions are drawn by a grid of the image's texels, each with the luminance that a bilinear
 // lookup averages to over the texel, times the sine of the polar angle [MATH 1.13]: 1 6 1 over 8
@@ -17,7 +17,7 @@
 namespace vestige {
 namespace {
 
-/// NaN, infinity and negative numbers have no meaning as radiance.
+/// Radiance with NaN, infinity and negative numbers replaced by 0.
 Rgb lit(Rgb c) noexcept {
   const auto channel = [](Real x) { return x > 0 && std::isfinite(x) ? x : 0; };
   return {channel(c.r), channel(c.g), channel(c.b)};
@@ -130,8 +130,8 @@ class Environment final : public Light {
   Rgb power() const noexcept override { return disk_.area() * flux_; }
 
  private:
-  /// A direction on the image, and the sine of its polar angle (not quite 0 at the poles, where
-  /// densities would have no end).
+  /// The uv of a direction, and the sine of its polar angle (bounded away from 0 at the poles,
+  /// where densities would be infinite).
   struct Place {
     Vec2 uv;
     Real sine;
@@ -218,7 +218,7 @@ void Environment::loadImage(const Values& values, Host& host) {
   if (!image_) throw PluginError(row, error);
 }
 
-/// One pass over the texels: the grid, the flux, and a warning about what is no radiance.
+/// One pass over the texels: the grid, the flux, and a warning about invalid radiance.
 void Environment::readImage(Host& host, Span span) {
   const int w = image_->width(), h = image_->height();
   std::vector<float> bright(std::size_t(w) * h);

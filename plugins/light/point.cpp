@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A point that shines evenly all around: irradiance intensity / distance^2.
+// An isotropic point light: irradiance is intensity / distance^2.
 #include <vestige/delta_light.h>
 
 namespace vestige {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A point that shines into a cone. As POV-Ray's: full intensity within `radius` of the axis, none
-// beyond `falloff`, and between them a cubic in the cosine, 3t^2 - 2t^3.
+// A point light with a cone, as in POV-Ray: full intensity within `radius` of the axis, none beyond
+// `falloff`, and a cubic in the cosine between them, 3t^2 - 2t^3.
 #include <vestige/delta_light.h>
 
 namespace vestige {

@@ -134,7 +134,7 @@ TEST_CASE("the cones of other renderers open by their own rules", "[app]") {
     REQUIRE(v.size() >= 2);
     const double start = 4.0 / 64 / 4;  // a pixel's share among 16, on the plane
     CHECK(v[0]["footprint"]["size"].get<double>() == Approx(start).epsilon(1e-2));
-    // A matt surface is as rough as can be: 1 rad.
+    // A diffuse surface is as rough as can be: 1 rad.
     const double pdf = v[0]["scatter"]["pdf"], distance = v[1]["distance"];
     const double spread = bound == "cone_roughness" ? 1 : 1 / (8 * std::sqrt(pdf));
     const double cosine = 3 / distance;
@@ -143,7 +143,7 @@ TEST_CASE("the cones of other renderers open by their own rules", "[app]") {
   }
 }
 
-TEST_CASE("a limit of the score lets matt surfaces be", "[app]") {
+TEST_CASE("a limit of the score leaves diffuse surfaces alone", "[app]") {
   const Folder folder;
   const auto deltas = [&](const std::string& of) {
     const std::string scene =

@@ -33,7 +33,7 @@ TEST_CASE("plugin test: a wrong density is named, with a report", "[app][plugin]
   INFO(r.out << r.err);
   CHECK(r.exit == 1);
   CHECK_THAT(r.out, containsText("evaluate().pdf is wrong: with {"));
-  CHECK_THAT(r.out, containsText("sample() lands 2 times as often as evaluate().pdf says"));
+  CHECK_THAT(r.out, containsText("sample() lands 2 times as often as evaluate().pdf predicts"));
   CHECK_THAT(r.out, containsText("toPrev <"));
   // It has no derivatives of its own, so nobody blames it for them.
   CHECK_THAT(r.out, !containsText("lobePdf is wrong"));

@@ -133,7 +133,7 @@ TEST_CASE("no ball shines in a white furnace", "[images]") {
   }
 }
 
-TEST_CASE("light goes round inside a matt ball for as many edges as asked", "[images]") {
+TEST_CASE("light goes round inside a diffuse ball for as many edges as asked", "[images]") {
   // Point light of intensity pi at the centre, reflectance r = 1/2: each bounce adds half of the
   // one before, r + r^2 + ... in all.
   const auto inside = [](const std::string& path) {

@@ -83,7 +83,7 @@ struct Reference {
 bool near(double a, double b) { return std::abs(a - b) < 2e-3; }
 double away(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
-/// What is matt in figure 4's room.
+/// The diffuse surfaces of figure 4's room.
 const std::map<std::string, Reference::Region> kRegions = {
     {"ceiling", [](double, double y, double) { return near(y, 4); }},
     {"floor", [](double, double y, double) { return near(y, 0); }},

@@ -46,7 +46,7 @@ void checkBuiltIn(unsigned seed) {
 TEST_CASE("judge: pdf() that is wrong", "[judge][brdf]") {
   const judge::Judgement j = judged<HalfPdf>("phong", kGlossy);
   checkBlamed(j, "evaluate().pdf");
-  CHECK_THAT(failures(j), containsText("times as often as evaluate().pdf says"));
+  CHECK_THAT(failures(j), containsText("times as often as evaluate().pdf predicts"));
   checkBlamed(judged<UniformPdf>("lambert", kDiffuse), "evaluate().pdf");
 }
 

@@ -12,7 +12,7 @@ using namespace vestige::particle;
 
 namespace {
 
-/// A matt ball and one of ground glass in a room with a lamp, a spot and a window.
+/// A diffuse ball and one of ground glass in a room with a lamp, a spot and a window.
 std::string furnished() {
   return box("brdf lambert { diffuse rgb <0.7, 0.5, 0.3> }") +
          "light area { <0.8, 1.9, 0.8>, <0.4, 0, 0>, <0, 0, 0.4> radiance rgb <20, 18, 12> }\n"

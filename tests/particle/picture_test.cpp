@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plugin's pictures beside those of paths: of what is matt, glossy, let through, seen in
+// The plugin's pictures beside those of paths: of what is diffuse, glossy, let through, seen in
 // mirrors, under open sky.
 #include <fstream>
 
@@ -23,7 +23,7 @@ std::string octahedron() {
 }
 
 const std::pair<const char*, std::string> kScenes[] = {
-    {"a matt ball", kWalls + "sphere { <1, 0.6, 1.2>, 0.5 }\n"},
+    {"a diffuse ball", kWalls + "sphere { <1, 0.6, 1.2>, 0.5 }\n"},
     {"screens that let light through", kWalls + "quad { <0.2, 0.2, 1>, <1.6, 0, 0>, <0, 1.6, 0> "
                                                 "brdf lambert { diffuse rgb 0.8 opacity 0.4 } }\n"
                                                 "quad { <0.4, 0.4, 1.3>, <1.2, 0, 0>, <0, 1.2, 0> "
@@ -70,8 +70,8 @@ TEST_CASE("particles and paths agree on pictures", "[particle]") {
   }
 }
 
-TEST_CASE("clusters keep all flux, and keep it to what is matt", "[particle]") {
-  // Mirrors and lamps lie in one plane with matt tiles, a carpet on the floor.
+TEST_CASE("clusters keep all flux, and keep it on diffuse surfaces", "[particle]") {
+  // Mirrors and lamps lie in one plane with diffuse tiles, a carpet on the floor.
   std::string tiles = kWalls;
   for (int i = 0; i < 16; ++i) {
     const std::string x = std::to_string(0.5 * (i % 4)), z = std::to_string(0.5 * (i / 4));

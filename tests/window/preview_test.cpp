@@ -214,7 +214,7 @@ TEST_CASE("the element under the cursor is told, as bright as its flux makes it"
   CHECK(i->path.seen[0].vertex == 0);
   CHECK(e.level > 0);
   CHECK(e.area == Approx(36 / std::pow(4, e.level)).epsilon(1e-4));
-  // What a matt surface sends on of it: rho / pi E.
+  // The radiance of a diffuse surface: rho / pi E.
   CHECK(e.flux.r > 0);
   CHECK(double(i->radiance.r) ==
         Approx(0.4 / double(kPi) * double(e.flux.r / e.area)).epsilon(1e-4));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Base of a flat light that is seen: its outline and its radiance are given, the methods of Light
-// follow.
+// Base class of flat lights with an area. A derived class gives the outline and the radiance; this
+// class implements the methods of Light.
 //
 //     class Disc final : public AreaLight {
 //      public:
@@ -12,8 +12,8 @@
 //       Rgb radiance(Vec2 at, Vec3 d) const noexcept override;
 //     };
 #pragma once
-#include <vestige/tools/aim.h>
 #include <vestige/light.h>
+#include <vestige/tools/aim.h>
 #include <vestige/tools/sampling.h>
 
 namespace vestige {
@@ -29,15 +29,16 @@ class AreaLight : public Light {
  public:
   using Differences = AreaLight;
 
-  /// The point of the plane for a number, and how it moves: uniform by area, |du[0] x du[1]| the
-  /// same everywhere. The rim of the square goes to the rim of the light.
+  /// The point of the plane for a pair of random numbers, with its derivatives. Uniform by area:
+  /// |du[0] x du[1]| is constant. The rim of the unit square maps to the rim of the light.
   virtual Disk outline(Vec2 u) const noexcept = 0;
 
-  /// W/(m^2 sr) from a point of the plane along unit d, d.z > 0. In the frame of the light: z is
-  /// its normal.
+  /// Radiance from a point of the plane along unit d, d.z > 0, W/(m^2 sr). d is in the light's own
+  /// frame, where z is the normal.
   virtual Rgb radiance(Vec2 at, Vec3 d) const noexcept = 0;
 
-  /// Asked where the radiance is not black. By default: finite differences, and a note to the user.
+  /// Called only where the radiance is not black. By default: finite differences, and a note to the
+  /// user.
   virtual RadianceGradient logRadianceGradient(Vec2 at, Vec3 d) const noexcept;
 
   const TriangleMesh* geometry() const noexcept override { return &mesh_; }
@@ -108,13 +109,14 @@ class AreaLight : public Light {
     return e;
   }
 
-  /// By default the mean of 64 x 64 particles, spread evenly: once a scene, not a path.
+  /// By default the mean over 64 x 64 evenly spread particles. Called once a scene, not once a
+  /// path.
   Rgb power() const noexcept override {
     constexpr int n = 64;
     Rgb sum;
     for (int i = 0; i < n * n; ++i) {
-      // Each direction of a grid from another point: an additive sequence, by powers of the
-      // plastic number.
+      // Each direction of a grid starts from a different point: an additive sequence by powers of
+      // the plastic number.
       const double x = 0.5 + i * 0.7548776662466927, y = 0.5 + i * 0.5698402909980532;
       const Vec2 point = {Real(x - std::floor(x)), Real(y - std::floor(y))};
       const Vec2 direction = {(i % n + Real(0.5)) / n, (i / n + Real(0.5)) / n};
@@ -124,8 +126,8 @@ class AreaLight : public Light {
   }
 
  protected:
-  /// In the constructor of a final class: where the plane lies, in the block's own space. Points
-  /// are centre + x s + y t; it shines to the side of cross(s, t).
+  /// Places the plane, in the block's own space; call it in the constructor of a final class.
+  /// Points are centre + x s + y t. The light shines to the side of cross(s, t).
   void place(const Affine& toWorld, Vec3 centre, Vec3 s, Vec3 t);
 
   const Frame& frame() const noexcept { return frame_; }
@@ -187,7 +189,7 @@ inline void AreaLight::place(const Affine& toWorld, Vec3 centre, Vec3 s, Vec3 t)
     const Vec2 rim[4] = {{x, 0}, {1, x}, {1 - x, 1}, {0, 1 - x}};
     add(outline(rim[i / kSide]).d);
   }
-  // The rim runs around the normal as the map keeps or turns orientation.
+  // The rim's orientation depends on whether the maps preserve orientation.
   const bool isTurned = (cross(middle.du[0], middle.du[1]) < 0) != isMirrored;
   for (std::uint32_t i = 0; i < 4 * kSide; ++i) {
     const std::uint32_t a = 1 + i, b = 1 + (i + 1) % (4 * kSide);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many scattering events in one call, one array a component. VESTIGE_PLUGIN writes these loops for
-// every BRDF from its scalar methods, which the compiler then inlines and, where it can,
-// vectorises: an author never writes them. Results are those of the scalar methods to the bit.
+// every BRDF from its scalar methods; the compiler inlines them and vectorises where it can.
+// Authors never write batches. The results equal those of the scalar methods to the bit.
 #pragma once
 #include <vestige/brdf.h>
 
@@ -47,7 +47,7 @@ struct ScatterNumbersBatch {
   ScatterNumbers get(int i) const noexcept { return {lobe[i], {u[i], v[i]}}; }
 };
 
-/// What became of a draw.
+/// The result of one draw.
 enum class Drawn : std::uint8_t { nothing, direction, specular };
 
 struct ScatterSampleBatch {
@@ -55,7 +55,7 @@ struct ScatterSampleBatch {
   Real *pdf, *lobePdf, *lobeChance;
   std::int32_t* lobe;
   Drawn* drawn;
-  /// Where nothing was drawn, only `drawn` has a meaning.
+  /// If nothing was drawn, only `drawn` is defined.
   void set(int i, const std::optional<ScatterSample>& s) const noexcept {
     drawn[i] = !s ? Drawn::nothing : s->specular ? Drawn::specular : Drawn::direction;
     if (!s) return;
@@ -68,7 +68,8 @@ struct ScatterSampleBatch {
   }
 };
 
-/// Brdf's methods for n points at once. The BRDF must be of the class that this was made for.
+/// Brdf's methods for n points at once. The BRDF must be an object of the class that the batch was
+/// instantiated for.
 struct BrdfBatch {
   void (*evaluate)(const Brdf& brdf, int n, const ScatterPointBatch& points,
                    const ConstVectorBatch& toNext, const ScatterValueBatch& out) noexcept;

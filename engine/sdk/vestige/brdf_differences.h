@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default derivatives of a BRDF: differences of its sample() and evaluate(). The engine notes
-// once that a scene uses such a plugin.
+// The default derivatives of a BRDF: finite differences of sample() and evaluate(). The engine
+// notifies the user once if a scene uses such a plugin.
 //
-// A lobe built in a frame around a moving axis turns that frame as its routine likes, and without
-// bound near the frame's own singularity. Derivatives are free of that spin [MATH 1.9]: the frame
-// is read off the lobe (its middle is u = <1/2, 1/2>, azimuth 0 lies towards u = <1, 1/2>), and
-// every neighbour is carried back along the shortest turn of its axis.
+// A lobe built in a frame around a moving axis rotates with that frame arbitrarily, and without
+// bound near the frame's singularity. Derivatives are free of that spin [MATH 1.9]: the frame is
+// read off the lobe (its middle is u = <1/2, 1/2>, azimuth 0 lies towards u = <1, 1/2>), and every
+// neighbour is carried back along the shortest turn of its axis.
 #pragma once
 #include <vestige/brdf.h>
 #include <vestige/tools/differences.h>
@@ -18,7 +18,7 @@ inline ScatterPoint facing(ScatterPoint p, Vec3 toPrev) noexcept {
   return p;
 }
 
-/// sample() as a map that stays within one lobe and one kind of event.
+/// sample() as a map within one lobe and one kind of event.
 class LobeMap {
  public:
   LobeMap(const Brdf& brdf, const ScatterPoint& p, ScatterNumbers n) noexcept
@@ -29,13 +29,14 @@ class LobeMap {
   bool isSpecular() const noexcept { return drawn_->specular; }
   Vec3 toNext() const noexcept { return drawn_->toNext; }
 
-  /// For other numbers: nullopt outside of the unit square and in other lobes.
+  /// The map at other random numbers; nullopt outside the unit square and in other lobes.
   std::optional<Vec3> byNumbers(Vec2 u) const noexcept {
     if (!(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1)) return std::nullopt;
     return within(p_, u);
   }
 
-  /// For another toPrev, without the frame's spin; nullopt below the horizon and in other lobes.
+  /// The map at another toPrev, without the frame's spin; nullopt below the horizon and in other
+  /// lobes.
   std::optional<Vec3> byPrev(Vec3 toPrev) const noexcept {
     if (!(toPrev.z > 0)) return std::nullopt;
     const ScatterPoint q = facing(p_, toPrev);
@@ -91,8 +92,8 @@ inline ScatterJacobian ofSample(const Brdf& brdf, const ScatterPoint& p,
   return j;
 }
 
-/// Of the log of a positive function of both directions, value(point, toNext), about as smooth as
-/// the BRDF's density. Zero where it is zero.
+/// Gradient of the log of a positive function of both directions, value(point, toNext), which must
+/// be about as smooth as the BRDF's density. Zero where the function is zero.
 template <class Value>
 LogGradient ofLog(const Value& value, const Brdf& brdf, const ScatterPoint& p,
                   Vec3 toNext) noexcept {

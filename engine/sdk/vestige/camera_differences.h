@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The derivatives of a camera that does not write its own: differences of its sample(). The engine
-// notes once that a scene uses such a plugin.
+// The default derivatives of a camera: finite differences of sample(). The engine notifies the user
+// once if a scene uses such a plugin.
 #pragma once
 #include <vestige/camera.h>
 #include <vestige/tools/differences.h>
@@ -29,7 +29,7 @@ inline RayJacobian ofCamera(const Camera& camera, CameraNumbers n) noexcept {
       return s ? std::optional(s->direction) : std::nullopt;
     };
     j.dOrigin[k] = derivative(origin, here->origin, kStep, size);
-    // A unit vector moves across itself.
+    // The derivative of a unit vector is perpendicular to it.
     j.dDirection[k] = projection(here->direction) * derivative(direction, here->direction, kStep);
   }
   return j;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shortest way to a BRDF that reflects broadly: its author writes f, as a colour times a
-// template over the number type. Directions are drawn by the cosine, derivatives come by
-// forward-mode differentiation. The class derives from CosineBrdf<Itself> and has, besides
+// The shortest way to write a broad reflecting BRDF: its author writes only f, as a colour times a
+// template over the number type. Directions are cosine distributed; derivatives come from
+// forward-mode differentiation. The class derives from CosineBrdf<Itself> and defines, besides
 // schema():
 //
 //     Rgb colour(const ScatterPoint& p) const noexcept;
@@ -9,8 +9,8 @@
 //     T shape(const ScatterPoint& p, const TVec3<T>& toPrev, const TVec3<T>& toNext) const
 //     noexcept;
 //
-// Rules for the template stand in dual.h. Not for lobes much narrower than the cosine: their
-// samples would weigh too much.
+// dual.h lists the rules for the template. Do not use it for lobes much narrower than the cosine:
+// the weights of their samples become large.
 #pragma once
 #include <vestige/brdf.h>
 #include <vestige/dual.h>

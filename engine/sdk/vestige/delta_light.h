@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bases of lights that no ray meets by chance. A PointSource needs its place and an intensity, a
-// DistantSource a direction and an irradiance; the methods of Light follow.
+// Base classes of delta lights, which no ray can hit by chance. A PointSource needs a position and
+// an intensity, a DistantSource a direction and an irradiance; the base implements the methods of
+// Light.
 //
 //     class Lamp final : public PointSource {
 //      public:
@@ -22,18 +23,18 @@ class DeltaLight : public Light {
   Rgb eval(const LightHit&) const noexcept final { return {}; }
 };
 
-/// A point: irradiance intensity / distance^2.
+/// A point light: irradiance is intensity / distance^2.
 class PointSource : public DeltaLight {
  public:
   using Differences = PointSource;
 
-  /// Radiant intensity along unit d, W/sr. In the frame of the light: z is its axis. Black where it
-  /// does not shine.
+  /// Radiant intensity along unit d, W/sr; black where the light does not shine. d is in the
+  /// light's own frame, where z is the axis.
   virtual Rgb intensity(Vec3 d) const noexcept = 0;
 
   /// Gradient of the log of the intensity's luminance by d, 1/rad; what lies along d does not
-  /// count. Asked where the intensity is not black. By default: finite differences, and a note to
-  /// the user.
+  /// count. Called only where the intensity is not black. By default: finite differences, and a
+  /// note to the user.
   virtual Vec3 logIntensityGradient(Vec3 d) const noexcept {
     const Real here = std::log(luminance(intensity(d)));
     const Frame f = Frame::around(d);
@@ -90,7 +91,8 @@ class PointSource : public DeltaLight {
     return {{location_, location_}, frame_.n, 0, std::acos(cosReach_)};
   }
 
-  /// By default the mean of the intensity over 64 x 64 directions: once a scene, not a path.
+  /// By default the mean of the intensity over 64 x 64 directions. Called once a scene, not once a
+  /// path.
   Rgb power() const noexcept override {
     constexpr int n = 64;
     Rgb sum;
@@ -142,7 +144,7 @@ class DistantSource : public DeltaLight {
     return {.dOrigin = {du.c[0], du.c[1]}, .dDirection = {}};
   }
 
-  /// What falls on the disk that covers the scene.
+  /// The flux through the disk that covers the scene.
   Rgb power() const noexcept override { return disk_.area() * irradiance_; }
 
  protected:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What went wrong and where: the one type in which the language, the engine and the plugins' host
-// report to the user. `app` prints it with the line and a caret.
+// Errors, warnings and notes with their places: the one type by which the language, the engine and
+// the plugins' host report to the user. `app` prints it with the line and a caret.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -32,7 +32,7 @@ struct Diagnostic {
   std::vector<Note> notes;  ///< "to close '{'", "first declared here", ...
 };
 
-/// Collects; order is kept.
+/// A list of diagnostics in the order of their reports.
 class Diagnostics {
  public:
   Diagnostic& error(Span span, std::string message) {
@@ -42,7 +42,7 @@ class Diagnostics {
   Diagnostic& warning(Span span, std::string message) {
     return list_.emplace_back(Diagnostic{Severity::warning, span, std::move(message), {}});
   }
-  /// For what is no mistake: --werror lets it pass.
+  /// A note about something that is not a mistake: --werror does not turn it into an error.
   Diagnostic& note(Span span, std::string message) {
     return list_.emplace_back(Diagnostic{Severity::note, span, std::move(message), {}});
   }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that carry four derivatives along: forward-mode automatic differentiation. Write a
-// sampling routine and log f once, as templates over the number, and inherit sampleDerivatives()
-// and logGradient() from DualBrdf (dual_brdf.h).
+// Numbers with four derivatives: forward-mode automatic differentiation. Write a sampling routine
+// and log f once, as templates over the number, and inherit sampleDerivatives() and logGradient()
+// from DualBrdf (dual_brdf.h).
 //
 // Four are enough in the local frame: two tangents of toPrev and two of u (or of toNext).
 // Rules for templated code: branch on value(x); no acos or atan2 (poles: see tools/sampling.h);
-// build frames with frameAround(), which transports them without spin.
+// build frames with inFrameAround(), which transports them without spin.
 #pragma once
 #include <vestige/tools/sampling.h>
 
 namespace vestige {
 
-/// A number and its change with each of four others.
+/// A number and its derivatives by four variables.
 struct Dual {
   typedef Real Lanes __attribute__((vector_size(4 * sizeof(Real))));
   Real v = 0;
@@ -20,7 +20,7 @@ struct Dual {
   Dual() = default;
   Dual(Real value) : v(value) {}  // NOLINT: a constant is a number that does not move
   Dual(Real value, const Lanes& derivative) : v(value), d(derivative) {}
-  /// The number that derivative `lane` is taken by.
+  /// The variable that derivative `lane` is taken by.
   static Dual variable(Real value, int lane) noexcept {
     Dual x(value);
     x.d[lane] = 1;
@@ -39,7 +39,7 @@ inline Dual operator/(Dual a, Dual b) noexcept {
   const Real r = 1 / b.v, q = a.v * r;
   return {q, (a.d - b.d * q) * r};
 }
-/// Zero derivative at zero: there is none, and none is better than an infinite one.
+/// The derivative at zero is taken as zero: the true one is infinite.
 inline Dual sqrt(Dual a) noexcept {
   const Real r = std::sqrt(std::max(Real(0), a.v));
   return {r, a.d * (r > 0 ? Real(0.5) / r : Real(0))};
@@ -72,7 +72,7 @@ template <class T>
 struct TVec3 {
   T x{}, y{}, z{};
 };
-/// Where something starts, and along what.
+/// An origin and a direction.
 template <class T>
 struct TRay {
   TVec3<T> origin, direction;
@@ -104,18 +104,18 @@ TVec3<T> normalize(const TVec3<T>& a) noexcept {
 }
 
 inline TVec3<Real> lifted(Vec3 a) noexcept { return {a.x, a.y, a.z}; }
-/// A vector that does not move.
+/// A constant vector.
 template <class T>
 TVec3<T> constant(Vec3 a) noexcept {
   return {T(a.x), T(a.y), T(a.z)};
 }
 inline Vec3 value(const TVec3<Real>& a) noexcept { return {a.x, a.y, a.z}; }
 inline Vec3 value(const TVec3<Dual>& a) noexcept { return {a.x.v, a.y.v, a.z.v}; }
-/// Derivative of a vector by number `lane`.
+/// Derivative of a vector by variable `lane`.
 inline Vec3 derivative(const TVec3<Dual>& a, int lane) noexcept {
   return {a.x.d[lane], a.y.d[lane], a.z.d[lane]};
 }
-/// p + sum of tangents times the numbers `first`, `first + 1`.
+/// p + tangent0 * variable `first` + tangent1 * variable `first + 1`.
 inline TVec3<Dual> moving(Vec3 p, Vec3 tangent0, Vec3 tangent1, int first) noexcept {
   const auto component = [&](Real v, Real a, Real b) {
     Dual x(v);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A BRDF whose author writes the sampling routine and log f once, as templates over the number
 // type, and gets both derivatives by forward-mode differentiation. The class derives from
-// DualBrdf<Itself> and has, besides evaluate() and sample() as in brdf.h (sample() may call
-// direction()):
+// DualBrdf<Itself>. Besides evaluate() and sample() (which may call direction()) it defines:
 //
 //     template <class T>   // the direction of one lobe, for numbers that do not end the path
 //     TVec3<T> direction(const ScatterPoint& p, const TVec3<T>& toPrev, Real lobe,
 //                        const TVec2<T>& u) const noexcept;
-//     template <class T>   // log of the luminance of f; asked only where f > 0
-//     T logValue(const ScatterPoint& p, const TVec3<T>& toPrev,
+//     template <class T> // log of the luminance of f; called only where f > 0 T logValue(const
+//     ScatterPoint& p, const TVec3<T>& toPrev,
 //                const TVec3<T>& toNext) const noexcept;
 #pragma once
 #include <vestige/brdf.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera that writes its map from the film to a ray once and has the derivatives for nothing.
+// Base class of cameras that write the map from film to ray once, as a template, and inherit its
+// derivatives.
 //
 //     class Fisheye final : public DualCamera<Fisheye> {
 //      public:

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// A light that writes its sampling routine and its factor once and has all derivatives for nothing.
+// Base class of lights that write their sampling routine and factor once, as templates, and inherit
+// all derivatives.
 //
 //     class Ball final : public DualLight<Ball> {
 //      public:
 //       template <class T>   // from the receiver to the light, of any length, as sample() draws it
 //       TVec3<T> way(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
-//       template <class T>   // log of the factor of LightLogGradient; asked where sample() draws
-//       T logFactor(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
-//       template <class T>   // what emit() starts; the direction of any length
-//       TRay<T> particle(const TVec2<T>& point, const TVec2<T>& direction) const noexcept;
-//       ...                  // and sample(), pdf(), eval(), emit(), power() as in light.h
+//       template <class T> // log of the factor of LightLogGradient; called only where sample()
+//       returns a sample T logFactor(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
+//       template <class T> // what emit() starts; the direction of any length TRay<T>
+//       particle(const TVec2<T>& point, const TVec2<T>& direction) const noexcept; ... // and
+//       sample(), pdf(), eval(), emit(), power() as in light.h
 //     };
 //
-// A light that sends no particles leaves particle() and emit() away.
+// A light that emits no particles omits particle() and emit().
 #pragma once
 #include <vestige/dual.h>
 #include <vestige/light.h>

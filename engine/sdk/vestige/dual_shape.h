@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes written once: the author gives the point P(u, v) as a template over the number and finds
-// where rays meet it; tangents, normals and their derivatives follow.
+// Base class of shapes whose author writes the point P(u, v) as a template over the number, and the
+// intersection with a ray; tangents, normals and their derivatives follow.
 //
 //   class Bowl final : public DualShape<Bowl> {
 //     template <class T>
@@ -14,8 +14,8 @@
 
 namespace vestige {
 
-/// A number with its first and second derivatives by u and v: a truncated Taylor series. Rules for
-/// templates over it are those of dual.h: branch on value(x).
+/// A number with its first and second derivatives by u and v: a truncated Taylor series. Templates
+/// over it follow the rules of dual.h: branch on value(x).
 struct Jet {
   Real v = 0, du = 0, dv = 0, duu = 0, duv = 0, dvv = 0;
 
@@ -53,7 +53,7 @@ inline Jet operator/(const Jet& a, const Jet& b) noexcept {
   const Real r = 1 / b.v;
   return a * chain(b, r, -r * r, 2 * r * r * r);
 }
-/// Zero derivatives at zero, as Dual has it.
+/// The derivatives at zero are taken as zero, as for Dual.
 inline Jet sqrt(const Jet& a) noexcept {
   const Real r = safeSqrt(a.v);
   const Real d = r > 0 ? Real(0.5) / r : Real(0);
@@ -82,8 +82,8 @@ inline Jet abs(const Jet& a) noexcept { return a.v < 0 ? -a : a; }
 inline Jet max(const Jet& a, const Jet& b) noexcept { return a.v < b.v ? b : a; }
 inline Jet min(const Jet& a, const Jet& b) noexcept { return b.v < a.v ? b : a; }
 
-/// Base of a shape with a template point(u, v, face). Its intersect() says uv and face in the
-/// ShapeHit. It does not shine unless it overrides area() and samplePoint().
+/// Base of a shape with a template point(u, v, face). Its intersect() must set uv and part (the
+/// face) in the ShapeHit. It cannot emit light unless it overrides area() and samplePoint().
 template <class Derived>
 class DualShape : public Shape {
  public:
@@ -97,7 +97,7 @@ class DualShape : public Shape {
   Real area() const noexcept override { return 0; }
   AreaSample samplePoint(Vec2) const noexcept override { return {}; }
 
-  /// The side of the normal: 1 along dP/du x dP/dv, -1 against it.
+  /// Orientation of the normal: 1 along dP/du x dP/dv, -1 against it.
   virtual Real side(int /*face*/) const noexcept { return 1; }
 
  private:
@@ -120,7 +120,7 @@ SurfacePoint DualShape<Derived>::at(Vec2 uv, int face) const noexcept {
     return cross(s.dPdu, s.dPdv);
   };
   Vec3 n = derive();
-  // At a pole a tangent dies out: derivatives are taken a little beside it, where they still span
+  // At a pole a tangent vanishes: take the derivatives a little beside it, where they still span
   // the tangent plane.
   constexpr Real kAside = Real(1e-4);
   if (!(length(n) > kAside * std::max(lengthSquared(s.dPdu), lengthSquared(s.dPdv)))) {

@@ -11,8 +11,8 @@
 //
 // footprint/differentials.h  the chain rule      footprint/deltas.h    how far a number may move
 // footprint/footprints.h     regions             footprint/reduce.h    many numbers into four
-// footprint/settings.h       what is followed    footprint/language.h  how a scene says so
-// footprint/score.h          the gradient of F/p         footprint/cone.h      others' heuristics
+// footprint/settings.h what is followed footprint/language.h the scene's words footprint/score.h
+// the gradient of F/p footprint/cone.h others' heuristics
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001.
 #pragma once
@@ -27,8 +27,9 @@
 
 namespace vestige {
 
-/// Into how many children a scattering splits: strata of its first times of its second number. Not
-/// whole where a net of points fills the square: 2 points are 1.41 x 1.41.
+/// How many children a scattering splits into, as strata of the first times strata of the second
+/// random number. Not integers where a net of points fills the square: 2 points count as 1.41 x
+/// 1.41.
 struct Strata {
   Real u = 1, v = 1;
 };
@@ -37,7 +38,8 @@ inline Strata squareStrata(int children) noexcept {
   return {side, side};
 }
 
-/// Lanes: the most numbers that are followed; when the next event would not fit, they are reduced.
+/// Lanes: the largest number of differentials. They are reduced when the next event would exceed
+/// it.
 template <int Lanes = 8>
 class PathFootprint {
  public:
@@ -46,8 +48,8 @@ class PathFootprint {
     begin(c.jacobian, c.ray.direction, c.cameraVariables, c.sampler.index(), c.declaredSamples,
           settings, settings.deltas.limit < kInfinity || c.wantsFootprint || c.record);
   }
-  /// `index`: of the sample in its pixel; `declared`: samples a pixel, particles of all lights; 0
-  /// if open ended. A limit needs the gradient; without either it need not be followed.
+  /// `index`: the sample's index in its pixel; `declared`: samples a pixel, or particles of all
+  /// lights; 0 if open ended. `followsGradient`: needed by a limit, the AOV and `inspect` only.
   void begin(const RayJacobian& ray, Vec3 direction, int variables, std::uint64_t index,
              std::uint64_t declared, const FootprintSettings& settings,
              bool followsGradient = true) noexcept {
@@ -58,14 +60,14 @@ class PathFootprint {
     if (isCone(settings.deltas.bound)) cone_.begin(ray, commonDelta(settings.deltas, count_));
     if (!isFrozen()) return;
     const Real share = commonDelta(settings.deltas, count_);
-    // Igehy's bound knows the film only, not the lens.
+    // Igehy's bound applies to the film's random numbers, not to the lens's.
     const Real lens = settings.deltas.bound == Bound::pixel ? 0 : share;
     for (Four& block : frozen_) block = four(0);
     frozen_[0] = Four{share, share, lens, lens};
   }
 
-  /// A particle. Of a light's four numbers two may move nothing, a point light's point or a distant
-  /// light's direction: they are left out.
+  /// A particle. Two of a light's four random numbers may have no effect (a point light's point, a
+  /// distant light's direction); they are omitted.
   void begin(const Particle& p, const RayJacobian& ray, std::uint64_t index, std::uint64_t declared,
              const FootprintSettings& settings) noexcept {
     RayJacobian moving = ray;
@@ -78,8 +80,8 @@ class PathFootprint {
     begin(moving, p.direction, p.variables, index, declared, settings);
   }
 
-  /// To a surface that the ray under way meets; `size` is the scene's, which no differential
-  /// outgrows.
+  /// Moves to the surface that the current ray hits. `size`: size of the scene, the upper limit of
+  /// all differentials.
   void arrive(const Surface& s, Real size) noexcept {
     normal_ = s.geometricNormal;
     differentials_.transfer(s.distance, s.geometricNormal, std::max(size, s.distance));
@@ -99,7 +101,8 @@ class PathFootprint {
     return result;
   }
 
-  /// The same for the direction of the ray that left the last surface: two vectors across it.
+  /// The region of directions around the ray that left the last surface: two vectors perpendicular
+  /// to it.
   void directions(Vec3 spread[2]) const noexcept {
     const Frame& ray = differentials_.ray();
     if (isCone(settings_.deltas.bound)) {
@@ -119,9 +122,9 @@ class PathFootprint {
   /// Exact area of the polygon that the differential vectors span (Minkowski sum) [MATH 2.1].
   Real area() const noexcept { return polygonArea(vectors(Frame::around(normal_)).all()); }
 
-  /// Through a scattering drawn with these numbers at the surface arrived at. Where the path splits
-  /// into strata x strata children, `strata` says so (1: not at all). Reduces first where there is
-  /// no room.
+  /// Moves through a scattering at the current surface, drawn with these random numbers. `strata`:
+  /// how many children the path splits into (1: no split). Reduces the differentials first if there
+  /// is no room.
   void scatter(const Surface& s, const Interaction& x, const Scatter& drawn, ScatterNumbers numbers,
                Strata strata = {}) noexcept {
     if (!drawn.local.specular && differentials_.size() > Lanes - 2) reduceNow();
@@ -144,13 +147,13 @@ class PathFootprint {
     if (drawn.local.specular) return;
     count_.drew(2);
     if (settings_.deltas.bound != Bound::local) return;
-    // Only a share of the split's rays are drawn from this lobe.
+    // Only a share of the split's rays is drawn from this lobe.
     const Real spread = settings_.deltas.scale / std::sqrt(drawn.local.lobeChance);
     freeze(before, std::min(spread / strata.u, Real(1)));
     freeze(before + 1, std::min(spread / strata.v, Real(1)));
   }
 
-  /// What a connection to a light moves by: the light's two numbers come last.
+  /// The differentials of a connection to a light; the light's two random numbers come last.
   Differentials<Lanes + 4> connect(const Surface& s, const Interaction& x, Vec3 toLight,
                                    const LightJacobian& light,
                                    const LightLogGradient& lightLog) const noexcept {
@@ -160,7 +163,7 @@ class PathFootprint {
                                   lightLog);
   }
 
-  /// Whether a connection has a footprint of its own (LightTerm::exact).
+  /// Whether a connection to a light has its own footprint (LightTerm::exact).
   bool heedsLight() const noexcept {
     return settings_.light == LightTerm::exact && settings_.deltas.limit < kInfinity;
   }
@@ -173,7 +176,7 @@ class PathFootprint {
     return result;
   }
 
-  /// A discrete choice that the path survived, with its probability.
+  /// Records a discrete choice that the path survived, with its probability.
   void chance(Real probability) noexcept { count_.chance(probability); }
 
   const Differentials<Lanes>& differentials() const noexcept { return differentials_; }
@@ -182,7 +185,7 @@ class PathFootprint {
   /// delta_j: the bound, then the gradient's limit, then the width of a sphere.
   Real delta(int j) const noexcept { return deltas(j / 4, common())[j % 4]; }
 
-  /// The steepest relative change of the contribution with any of the numbers.
+  /// The largest relative derivative of the contribution by any random number.
   Real steepest() const noexcept {
     Real g = 0;
     for (int j = 0; j < differentials_.size(); ++j)
@@ -195,7 +198,7 @@ class PathFootprint {
     return settings_.deltas.bound == Bound::local || settings_.deltas.bound == Bound::pixel;
   }
 
-  /// Of all numbers that have no delta of their own.
+  /// Delta of all random numbers without a frozen one.
   Four common() const noexcept {
     return four(isFrozen() ? Real(0) : commonDelta(settings_.deltas, count_));
   }
@@ -250,9 +253,9 @@ class PathFootprint {
     return r;
   }
 
-  /// Frozen deltas go into the columns, which then count whole; common ones stay outside. Merged
-  /// numbers keep a gradient only where a limit goes by it: asking for it must not change a
-  /// picture.
+  /// Frozen deltas are multiplied into the columns, which then have delta 1; common deltas stay
+  /// outside. Merged columns keep a gradient only if a limit uses it: an AOV of the gradient must
+  /// not change the picture.
   void reduceNow() noexcept {
     Four weights[Lanes / 4];
     for (int b = 0; b < Lanes / 4; ++b) weights[b] = isFrozen() ? frozen_[b] : four(1);

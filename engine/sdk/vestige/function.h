@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A function that the scene text defines, as a plugin calls it.
+// A function defined in the scene text, as plugins see it.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -10,12 +10,12 @@ namespace vestige {
 class Function {
  public:
   virtual ~Function() = default;
-  /// How many numbers it takes.
+  /// Number of arguments.
   virtual int arity() const noexcept = 0;
-  /// The value at `args`, arity() numbers [any thread]. Takes bounded time and no memory. Not a
-  /// number where the expression has no value, as sqrt(-1); a division by zero is infinite.
+  /// The value at `args`, arity() numbers [any thread]. Takes bounded time and allocates nothing.
+  /// Returns NaN where the expression has no value, as sqrt(-1); a division by zero is infinite.
   virtual double eval(std::span<const double> args) const noexcept = 0;
-  /// The same for functions that compute the same in the same way.
+  /// Equal for functions with the same program.
   virtual std::uint64_t fingerprint() const noexcept = 0;
 };
 

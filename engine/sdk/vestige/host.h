@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the engine does for a plugin while it is created: files, images, messages.
+// Services of the engine for a plugin's constructor: files, images, messages, plugins inside
+// plugins.
 #pragma once
 #include <memory>
 #include <stdexcept>
@@ -26,11 +27,11 @@ class Texture {
  public:
   virtual ~Texture() = default;
   /// The average of the point lookups under the footprint, channel by channel in linear light
-  /// (colour is not weighted by alpha, as in mean()) [any thread]. Zero vectors ask for a point,
-  /// which is bilinear; so, to the bit, does any footprint whose longest axis, the root of the
-  /// larger eigenvalue of a a^T + b b^T, is within one texel, and one that is not a number. Up to
-  /// two texels both are mixed, so nothing jumps. Beyond an aspect of 32 the shorter axis is
-  /// widened, beyond 16 times the picture each axis is cut.
+  /// (colour is not weighted by alpha, as in mean()) [any thread]. Zero vectors give the bilinear
+  /// point lookup. The result is the same, to the bit, if the footprint's longest axis (the root of
+  /// the larger eigenvalue of a a^T + b b^T) is within one texel, or is NaN. Between one and two
+  /// texels the point and the filtered value are blended. Beyond an aspect of 32 the shorter axis
+  /// is widened; beyond 16 times the picture each axis is clamped.
   virtual Rgba lookup(Vec2 uv, const Vec2 dUv[2]) const noexcept = 0;
   /// One texel of the full resolution; x, y inside the image, row 0 at the bottom [any thread].
   virtual Rgba texel(int x, int y) const noexcept = 0;
@@ -43,45 +44,44 @@ class Texture {
 
 class Medium;
 
-/// A BRDF inside another, which asks it at its own point. Its inputs follow those of the owner.
+/// A BRDF inside another, evaluated at the same point. Its inputs follow those of the owner.
 struct NestedBrdf {
   std::shared_ptr<const Brdf> brdf;  ///< never null
   int firstInput = 0;                ///< counted from the owner's first
 
-  /// The owner's point, with the inputs of this one.
+  /// The owner's point with the nested BRDF's inputs.
   ScatterPoint at(ScatterPoint p) const noexcept {
     p.inputs = p.inputs.from(firstInput);
     return p;
   }
 };
 
-/// Handed to a plugin's constructor. [main thread]
+/// Passed to a plugin's constructor. [main thread]
 class Host {
  public:
   virtual ~Host() = default;
-  /// Absolute name of a file that stands beside the text of `span`, or "" with `error` saying where
-  /// it was looked for. To be asked for every file before it is read, also one that another file
-  /// names: what was asked for is watched by a preview, which creates a shape again only when such
-  /// a file has changed.
+  /// Absolute path of a file beside the scene text of `span`, or "" with the searched places in
+  /// `error`. Call it for every file before reading it, also for files that other files name: a
+  /// preview watches these files, and creates a shape again only if one of them has changed.
   virtual std::string find(const std::string& file, Span span, std::string& error) = 0;
-  /// The image, read once however often it is asked for; null with `error` saying why.
+  /// The image, read only once for all requests; null with the reason in `error`.
   virtual std::shared_ptr<const Texture> texture(const TextureRequest& request,
                                                  std::string& error) = 0;
-  /// A plugin made of a block inside the caller's own. Never null: where the block is refused, the
-  /// user has been told and the scene is not rendered. A BRDF's inputs may be textured; its owner
-  /// hands its points on by NestedBrdf::at(). Null block: a grey diffuse one.
+  /// Creates the BRDF of a block inside the caller's own. Never null: if the block is refused, the
+  /// error is reported and the scene is not rendered. The nested BRDF's inputs may be textured; its
+  /// owner evaluates it at NestedBrdf::at(point). A null block gives a grey diffuse BRDF.
   virtual NestedBrdf brdf(const Block* /*block*/) { return unavailable(); }
-  /// A pigment with the transforms written inside its block.
+  /// Creates a pigment, with the transforms written inside its block.
   virtual std::shared_ptr<const Pigment> pigment(const Block& /*block*/) { return unavailable(); }
   virtual std::shared_ptr<const Medium> medium(const Block& /*block*/) { return unavailable(); }
 
-  /// Something the user should know that does not stop the render.
+  /// Warns the user of something that does not stop the render.
   virtual void warn(Span span, const std::string& message) = 0;
-  /// Something worth knowing that is not a mistake. The same message is shown once.
+  /// Tells the user something that is not a mistake. Equal messages are shown once.
   virtual void note(const std::string& /*message*/) {}
 
  private:
-  /// For hosts of tests that make no plugins.
+  /// Result of the defaults above, for test hosts that create no plugins.
   struct Unavailable {
     template <class Anything>
     operator Anything() const {

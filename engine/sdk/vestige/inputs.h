@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How parameters reach a plugin: `Values` once, when it is created; `Inputs` at every point,
-// already looked up in their textures.
+// Parameters of a plugin: `Values` when it is created; `Inputs` at every point, with textures
+// already evaluated.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace vestige {
 
-/// The values of Schema::params, in that order: given, or the default; of the right type and within
-/// range, else the scene was refused before.
+/// The values of Schema::params, in that order: the one given or the default. Type and range have
+/// already been checked.
 class Values {
  public:
   Values(std::span<const Value> rows, const Affine& toWorld) : rows_(rows), toWorld_(toWorld) {}
@@ -22,17 +22,17 @@ class Values {
   Vec3 vec3(int i) const { return vec3Of(rows_[i]); }
   Rgb rgb(int i) const { return rgbOf(rows_[i]); }
   const std::string& text(int i) const { return rows_[i].text; }
-  /// The block given, or null.
+  /// The given block, or null.
   const Block* block(int i) const { return rows_[i].block.get(); }
-  /// The function given, or null; it may be kept.
+  /// The given function, or null; the plugin may keep it.
   std::shared_ptr<const Function> function(int i) const { return rows_[i].function; }
-  /// Whether there is a value at all: given, or a default.
+  /// Whether there is a value: given, or a default.
   bool has(int i) const { return rows_[i].kind != Value::Kind::none; }
   Span span(int i) const { return rows_[i].span; }
   const Value& value(int i) const { return rows_[i]; }
 
-  // Of a list or a map in row i: how many entries, and what entry j holds. Counts and ranges are as
-  // the schema says; a row that was not given has no entries.
+  // A list or a map in row i: its number of entries, and entry j. Counts and ranges have been
+  // checked against the schema; a row that was not given has no entries.
   int size(int i) const { return rows_[i].list ? int(rows_[i].list->entries.size()) : 0; }
   const Value& value(int i, int j) const { return rows_[i].list->entries[std::size_t(j)].value; }
   Real key(int i, int j) const { return Real(rows_[i].list->entries[std::size_t(j)].key); }
@@ -41,12 +41,12 @@ class Values {
   Vec3 vec3(int i, int j) const { return vec3Of(value(i, j)); }
   Rgb rgb(int i, int j) const { return rgbOf(value(i, j)); }
   const std::string& text(int i, int j) const { return value(i, j).text; }
-  /// The block that entry j holds, or null.
+  /// The block in entry j, or null.
   const Block* block(int i, int j) const { return value(i, j).block.get(); }
   Span span(int i, int j) const { return rows_[i].list->entries[std::size_t(j)].span; }
 
-  /// From the block's own space to world space. Lights and cameras apply it themselves; shapes and
-  /// pigments are asked in their own space and must not.
+  /// Transform from the block's own space to world space. Lights and cameras apply it themselves;
+  /// shapes and pigments must not, since the engine calls them in their own space.
   const Affine& toWorld() const { return toWorld_; }
 
  private:
@@ -63,17 +63,17 @@ struct InputValue {
   Real v[4];
 };
 
-/// More inputs than any BRDF has; the engine's own (normal map, opacity) and those of the BRDFs
-/// inside it included.
+/// Upper limit of a BRDF's inputs, including the engine's (normal map, opacity) and those of nested
+/// BRDFs.
 inline constexpr int kMaxInputs = 48;
 
 /// The values of Schema::inputs at one point, in that order, filtered over the path's footprint.
-/// A view: the integrator keeps the numbers (InputBuffer).
+/// A view: the integrator's InputBuffer owns the values.
 class Inputs {
  public:
   Inputs() = default;
   explicit Inputs(const InputValue* values) : values_(values) {}
-  /// Those from number `first` on: the inputs of a plugin inside another.
+  /// The inputs from index `first` on: those of a nested plugin.
   Inputs from(int first) const noexcept { return Inputs(values_ + first); }
   Real real(int i) const noexcept { return values_[i].v[0]; }
   Rgb rgb(int i) const noexcept { return {values_[i].v[0], values_[i].v[1], values_[i].v[2]}; }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The derivatives of a light that does not write its own: differences of its sample() and emit().
-// The engine notes once that a scene uses such a plugin.
+// The default derivatives of a light: finite differences of sample() and emit(). The engine
+// notifies the user once if a scene uses such a plugin.
 #pragma once
 #include <vestige/light.h>
 #include <vestige/tools/differences.h>
 
 namespace vestige::differences {
 
-/// sample() as a map from its numbers and from the receiver's position.
+/// sample() as a function of its random numbers and of the receiver's position.
 class LightMap {
  public:
   LightMap(const Light& light, const Receiver& r, Vec2 u) noexcept
@@ -17,7 +17,7 @@ class LightMap {
   bool isFinite() const noexcept { return here_ && std::isfinite(here_->hit.distance); }
   /// Scene units that count as a step of 1: what is smooth is smooth on the scale of the distance.
   Real unit() const noexcept { return here_->hit.distance; }
-  /// How large the numbers are that sample() rounds, in those units.
+  /// Magnitude of the values that sample() rounds, in those units.
   Real noise() const noexcept {
     return isFinite() ? 1 + length(r_.position) / here_->hit.distance : 1;
   }
@@ -53,7 +53,7 @@ inline LightJacobian ofLightSample(const Light& light, const Receiver& r, Vec2 u
       const auto s = moved(h);
       return s ? std::optional(s->hit.toLight) : std::nullopt;
     };
-    // A unit vector moves across itself.
+    // The derivative of a unit vector is perpendicular to it.
     return projection(toLight) * derivative(direction, toLight, kStep, map.noise());
   };
   if (!light.traits().isDelta)
@@ -105,7 +105,8 @@ class EmissionMap {
   }
   const std::optional<Particle>& here() const noexcept { return here_; }
 
-  /// With number k (0, 1: point; 2, 3: direction) moved by h; nullopt outside of the unit squares.
+  /// emit() with random number k (0, 1: point; 2, 3: direction) moved by h; nullopt outside the
+  /// unit squares.
   std::optional<Particle> moved(int k, Real h) const noexcept {
     EmissionNumbers n = u_;
     Vec2& pair = k < 2 ? n.point : n.direction;
@@ -113,7 +114,7 @@ class EmissionMap {
     x += h;
     if (!(x >= 0 && x < 1)) return std::nullopt;
     std::optional<Particle> p = light_.emit(n);
-    // Only what a frame was built around turns it: the point of a surface, a direction at infinity.
+    // Only the axis of a frame can rotate it: the point of a surface, or a direction at infinity.
     if (!p || !frame_ || isInfinite_ != (k >= 2)) return p;
     const auto there = frameAt(n, *p);
     if (!there) return std::nullopt;
@@ -133,7 +134,7 @@ class EmissionMap {
     Frame frame;
     Vec3 pivot;
   };
-  /// At infinity the disk that a direction starts from, else the hemisphere of a point.
+  /// The frame of the disk of a direction at infinity, else of the hemisphere of a point.
   std::optional<Pivoted> frameAt(EmissionNumbers n, const Particle& p) const noexcept {
     Vec2& across = isInfinite_ ? n.point : n.direction;
     across = {Real(0.5), Real(0.5)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers, vectors, colours and frames: everything that a plugin computes with.
+// Numbers, vectors, colours and frames.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ inline constexpr Real kOneMinusEpsilon = 1 - std::numeric_limits<Real>::epsilon(
 
 inline constexpr Real radians(Real degrees) noexcept { return degrees * (kPi / 180); }
 inline constexpr Real sqr(Real x) noexcept { return x * x; }
-/// sqrt that takes what rounding leaves below zero as zero.
+/// sqrt that takes small negative values (from rounding) as zero.
 inline Real safeSqrt(Real x) noexcept { return std::sqrt(std::max(Real(0), x)); }
 
 /// Four numbers side by side: one register.
@@ -86,7 +86,7 @@ inline Real maxAbsComponent(Vec3 a) noexcept {
 inline bool isFinite(Vec3 a) noexcept { return std::isfinite(a.x + a.y + a.z); }
 
 // ---------------------------------------------------------------- colours
-/// Linear, in rendering space (Rec. 709 unless the scene says otherwise).
+/// A linear colour in rendering space (Rec. 709).
 struct Rgb {
   Real r{}, g{}, b{};
 };
@@ -110,7 +110,7 @@ inline Real maxComponent(Rgb c) noexcept { return std::max(c.r, std::max(c.g, c.
 inline bool isBlack(Rgb c) noexcept { return c.r == 0 && c.g == 0 && c.b == 0; }
 inline bool isFinite(Rgb c) noexcept { return std::isfinite(c.r + c.g + c.b); }
 
-/// A colour and how much it covers: alpha 1 hides what is behind. Not premultiplied.
+/// A colour with coverage: alpha 1 hides the background. Not premultiplied.
 struct Rgba {
   Rgb colour;
   Real alpha = 1;
@@ -120,7 +120,7 @@ struct Rgba {
 struct Mat3 {
   Vec3 c[3];
 };
-/// Two columns: how a vector moves with two numbers.
+/// Two columns: the derivatives of a vector by two variables.
 struct Mat3x2 {
   Vec3 c[2];
 };
@@ -173,10 +173,10 @@ inline constexpr Mat3 cofactor(const Mat3& m) noexcept {
 inline constexpr Mat3 inverse(const Mat3& m) noexcept {
   return (1 / determinant(m)) * transpose(cofactor(m));
 }
-/// I - v v^T for unit v: what is left of a vector across v.
+/// I - v v^T for unit v: the projection onto the plane perpendicular to v.
 inline constexpr Mat3 projection(Vec3 v) noexcept { return identity() - outer(v, v); }
 
-/// Orthonormal, n first among equals.
+/// Orthonormal axes; n is the normal or the axis.
 struct Frame {
   Vec3 s, t, n;
 
@@ -186,7 +186,8 @@ struct Frame {
     const Real a = -1 / (sign + n.z), b = n.x * n.y * a;
     return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
   }
-  /// The frame around unit n whose s lies nearest to `along`; around(n) where that says nothing.
+  /// The frame around unit n whose s lies nearest to `along`; around(n) if `along` is parallel to n
+  /// or zero.
   static Frame along(Vec3 n, Vec3 along) noexcept {
     const Vec3 across = along - dot(along, n) * n;
     const Real l2 = lengthSquared(across);
@@ -215,7 +216,7 @@ struct Affine {
            m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
   }
-  /// Only for determinant() != 0.
+  /// The inverse; requires determinant() != 0.
   Affine inverse() const noexcept {
     Affine r;
     const double d = 1 / determinant();
@@ -266,11 +267,11 @@ struct Bounds {
   void add(const Bounds& b) noexcept { low = minimum(low, b.low), high = maximum(high, b.high); }
 };
 
-/// What a ray is traced for. Objects are visible to a set of kinds, which is a sum of them.
+/// The purpose of a ray. An object is visible to a set of kinds, a sum of these values.
 enum class RayKind : std::uint8_t {
   camera = 1,
   shadow = 2,      ///< from a surface towards a light
-  reflection = 4,  ///< from a mirror: no light was drawn against it
+  reflection = 4,  ///< from a mirror: light sampling does not compete with it
   refraction = 8,  ///< through smooth glass, likewise
   indirect = 16,   ///< any other scattered ray; particles too
   any = 31,        ///< as the kind of a ray: meets what is visible to any kind
@@ -291,7 +292,7 @@ inline constexpr RayKind without(RayKind a, RayKind b) noexcept {
 
 struct Ray {
   Vec3 origin;
-  Vec3 direction;  ///< need not be unit where a shape is asked in its own space
+  Vec3 direction;  ///< not always unit in a shape's own space
   Real tMin = 0, tMax = kInfinity;
   Real time = 0;  ///< [0,1), share of the shutter's opening that has passed
   RayKind kind = RayKind::any;
@@ -322,9 +323,9 @@ inline Four3 cross(Vec3 a, const Four3& b) noexcept {
 }
 inline Four3 cross(const Four3& a, Vec3 b) noexcept { return Real(-1) * cross(b, a); }
 
-/// How a ray's start and direction move with the numbers that chose it, per unit of each number
-/// [PD01 Sec. 2.3]. Cameras: numbers 0, 1 are the film's, 2, 3 the lens's. Emission: 0, 1 choose
-/// the point, 2, 3 the direction.
+/// Derivatives of a ray's origin and direction by the random numbers that it was drawn with [PD01
+/// Sec. 2.3]. Cameras: numbers 0, 1 are the film's, 2, 3 the lens's. Emission: 0, 1 choose the
+/// point, 2, 3 the direction.
 struct RayJacobian {
   std::array<Vec3, 4> dOrigin{}, dDirection{};
 };

@@ -5,14 +5,12 @@
 
 #include <optional>
 
-/// What fills a space: how far light flies before it is scattered or absorbed, and into which
-/// direction it is scattered then.
+/// Participating media: how far light flies before it is scattered or absorbed, and the direction
+/// into which it is scattered.
 ///
-/// Said once, true of every method:
-///   * Both kinds are asked in world space, with unit directions that leave the point: toPrev is
-///   the
-///     known direction, toNext the sampled one. Light that flies straight on has
-///     toNext = -toPrev.
+/// Conventions of every method:
+///   * Both kinds work in world space, with unit directions that leave the point: toPrev is the
+///     known direction, toNext the sampled one. Unscattered light has toNext = -toPrev.
 ///   * Distances are in scene units, coefficients in 1 per scene unit.
 ///   * Methods are const, thread-safe and noexcept; they allocate nothing.
 namespace vestige {
@@ -34,7 +32,7 @@ class PhaseFunction {
   virtual std::optional<PhaseSample> sample(Vec3 toPrev, Vec2 u) const noexcept = 0;
 };
 
-/// How far a ray flew.
+/// The end of a free flight.
 struct FreeFlight {
   bool isScattered;  ///< false: it reached the end of the ray
   Real distance;     ///< to the point where it is scattered; scene units
@@ -42,7 +40,7 @@ struct FreeFlight {
                      ///< where it reached the end
 };
 
-/// Numbers for one flight. A medium that varies draws more of them from `seed`.
+/// Random numbers for one flight. A heterogeneous medium draws more of them from `seed`.
 struct FlightNumbers {
   Real distance, channel;  ///< [0,1)
   std::uint32_t seed;
@@ -52,16 +50,16 @@ class Medium {
  public:
   virtual ~Medium() = default;
 
-  /// Draws where a ray is scattered, between its tMin and tMax (which may be infinite).
+  /// Draws the point where a ray is scattered, between its tMin and tMax (which may be infinite).
   virtual FreeFlight fly(const Ray& ray, FlightNumbers n) const noexcept = 0;
 
-  /// Share of the light that gets from tMin to tMax; may be an unbiased estimate from n.
+  /// Transmittance from tMin to tMax; may be an unbiased estimate that uses n.
   virtual Rgb transmittance(const Ray& ray, FlightNumbers n) const noexcept = 0;
 
-  /// Scatters at the points of fly(). Lives as long as the medium.
+  /// The phase function at the points of fly(). Lives as long as the medium.
   virtual const PhaseFunction& phase() const noexcept = 0;
 
-  /// Radiance given off per scene unit, W/(m^2 sr) per unit.
+  /// Emitted radiance per scene unit, W/(m^2 sr) per unit.
   virtual Rgb emission(Vec3 /*position*/) const noexcept { return {}; }
 };
 

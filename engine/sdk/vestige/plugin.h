@@ -70,9 +70,9 @@ void* create(const void* values, void* host, VestigeError* error) {
   }
 }
 
-/// Which methods Class leaves to the default of its Interface: then the type of the member names
-/// the interface. A member that cannot be named here is one that Class hides: its own. A base
-/// between the two may have a default of its own; it calls itself Class::Differences.
+/// The methods that Class does not override: the type of the member then names the interface. A
+/// member that cannot be named here is hidden by Class, so it is overridden. A base class between
+/// the two may have its own default; it defines Class::Differences as itself.
 template <class Interface, class Class>
 constexpr std::uint32_t lacks() {
   std::uint32_t bits = 0;
@@ -105,7 +105,7 @@ constexpr std::uint32_t lacks() {
                                                decltype(&Interface::emissionDerivatives)>;
                      })
     bits |= kLacksEmissionDerivatives;
-  // A camera's: other interfaces have no default.
+  // Cameras only: other interfaces have no default pdf().
   if constexpr (requires {
                   requires std::is_same_v<decltype(&Class::pdf),
                                           Real (Interface::*)(Vec3, Vec3, Real) const noexcept>;

@@ -4,15 +4,15 @@
 
 namespace vestige {
 
-/// A point that light arrives at: what lights are sampled for, and chosen by.
+/// A point that receives light. Lights are sampled and chosen for a receiver.
 ///
 /// Multiple importance sampling needs the same receiver in sample() and in pdf(): an integrator
-/// keeps that of the last scattering event.
+/// stores the receiver of the last scattering event.
 struct Receiver {
   Vec3 position;
   Vec3 normal{};    ///< shading normal, unit; light may arrive at either side. Zero: in a volume
-  Real time = 0;    ///< of the ray that got there
-  int medium = -1;  ///< that surrounds the point; -1: vacuum
+  Real time = 0;    ///< time of the ray that arrived here
+  int medium = -1;  ///< index of the surrounding medium; -1: vacuum
 };
 
 }  // namespace vestige

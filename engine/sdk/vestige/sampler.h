@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random numbers as a pure function of (pixel, sample index, dimension, seed), so that an image is
-// the same for any order of work, and may be continued without knowing how many samples follow.
+// the same for any order of work, and can be continued without a known number of samples.
 //
 // [Bur20] Burley. Practical hash-based Owen scrambling. JCGT 9(4), 2020.
 // [AKLZ24] Ahmed, et al.: the second Sobol' dimension is Pascal's triangle modulo 2, which factors
@@ -39,7 +39,8 @@ inline std::uint32_t reverseBits(std::uint32_t x) noexcept {
   x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
   return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
-/// Of two numbers in one word: as cheap as of one. The first comes back in the upper half.
+/// The same for two numbers in one word, at the cost of one. The first is in the upper half of the
+/// result.
 inline std::uint64_t reverseBits(std::uint32_t first, std::uint32_t second) noexcept {
   std::uint64_t x = __builtin_bswap64((std::uint64_t(second) << 32) | first);
   x = ((x & 0x0f0f0f0f0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0f0f0f0f0fu);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a surface on: rays that leave it, and its BRDF in world space with all corrections.
+// Rays that leave a surface, and its BRDF in world space with all corrections.
 //
 // [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
 #pragma once
@@ -7,19 +7,19 @@
 
 namespace vestige {
 
-/// A ray that leaves a surface, started off it on the side it goes to, so that rounding cannot hit
-/// the same surface again.
+/// A ray that leaves a surface. Its origin is offset to the side of `direction`, so that rounding
+/// cannot make it hit the same surface again.
 inline Ray spawnRay(const Surface& s, Vec3 direction, RayKind kind = RayKind::any) noexcept {
   const Real side = dot(direction, s.geometricNormal) < 0 ? Real(-1) : Real(1);
   return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity, s.time, kind};
 }
-/// From a surface to a point of a light. Both ends move off their surfaces, and the ray runs
-/// between the moved points: so neither surface hides the other, however flat the ray meets them.
+/// A shadow ray from a surface to a point of a light. Both ends are offset from their surfaces, and
+/// the ray connects the offset points, so that neither surface shadows the other at grazing angles.
 inline Ray shadowRay(const Surface& s, const LightHit& light) noexcept {
   const Ray r = spawnRay(s, light.toLight);
   if (!std::isfinite(light.distance)) return r;
   const Real off = light.offset + kRayError * (light.distance + maxAbsComponent(light.position));
-  // A point without a surface moves back along the ray.
+  // A point light's end is offset back along the ray.
   const Real cosine = dot(light.normal, light.toLight);
   const Vec3 away = cosine < 0 ? light.normal : cosine > 0 ? -light.normal : -light.toLight;
   const Vec3 way = light.position + off * away - r.origin;
@@ -27,15 +27,15 @@ inline Ray shadowRay(const Surface& s, const LightHit& light) noexcept {
   if (!(distance > 0)) return {r.origin, light.toLight, 0, 0};
   return {r.origin, way / distance, 0, distance * (1 - kRayError)};
 }
-/// From a surface to a distance at which there is no light, as for ambient occlusion: the ray ends
-/// a little before it.
+/// A shadow ray of a given length without a light, as for ambient occlusion; it ends slightly
+/// before that distance.
 inline Ray shadowRay(const Surface& s, Vec3 direction, Real distance) noexcept {
   Ray r = spawnRay(s, direction);
   if (std::isfinite(distance)) r.tMax = distance - 2 * s.offset - distance * Real(1e-5);
   return r;
 }
 
-/// The kind of a scattered ray: `indirect` just if a light is drawn against it.
+/// The kind of a scattered ray: `indirect` if and only if light sampling competes with it.
 inline RayKind kindOf(const ScatterSample& s) noexcept {
   if (!s.specular) return RayKind::indirect;
   return s.toNext.z < 0 ? RayKind::refraction : RayKind::reflection;
@@ -45,11 +45,11 @@ inline bool isOpaque(Rgb opacity) noexcept {
   return opacity.r >= 1 && opacity.g >= 1 && opacity.b >= 1;
 }
 
-/// Which quantity a path carries away from the sensor or the light: radiance is scaled by
-/// etaScale(), flux bends with the shading normal [Vea97 5.2, 5.3].
+/// The quantity that a path carries: radiance (from the sensor) is scaled by etaScale(), flux (from
+/// a light) is corrected for shading normals [Vea97 5.2, 5.3].
 enum class Carries { radiance, flux };
 
-/// The point of a surface as lights see it.
+/// The receiver at a surface.
 inline Receiver receiverAt(const Surface& s, const Interaction& x, Real time = 0,
                            int medium = -1) noexcept {
   return {s.position, x.frame.n, time, medium};
@@ -75,13 +75,13 @@ inline bool sidesAgree(const Interaction& x, Vec3 toNext, Real localZ) noexcept 
   return dot(toNext, x.geometricNormal) * localZ > 0;
 }
 
-/// Of what crosses an interface; flux is not scaled, nor what stays on its side.
+/// Scale of radiance that crosses an interface; 1 for flux and for reflection.
 inline Real etaScale(const Interaction& x, Vec3 local, Carries what) noexcept {
   return what == Carries::radiance && local.z < 0 ? x.brdf->etaScale(x.point, local) : Real(1);
 }
 
 /// f |cos| towards a world direction, with all corrections, and the density of drawScatter() there.
-/// Zero where the BRDF or the geometry says no.
+/// Zero where the BRDF is zero or the normals disagree about the side.
 inline ScatterValue evaluateScatter(const Interaction& x, Vec3 toNext,
                                     Carries what = Carries::radiance) noexcept {
   if (!x.brdf) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene text means: blocks with settings, every value with the span it came from. The
-// language writes it, the engine reads it; another front end may write it too.
+// The meaning of a scene text: blocks with settings, each value with its span in the text. The
+// language produces it and the engine reads it; another front end may produce it too.
 #pragma once
 #include <memory>
 #include <string>
@@ -64,10 +64,10 @@ struct Block {
   Span span;                     ///< of the head, `brdf phong`
   SharedList<Setting> settings;  ///< a later one overrides an earlier one of the same name
   SharedList<Block> children;    ///< in the order written: a shape's brdf, the parts of a union
-  /// Transforms written inside this block's own braces. Moves what uv coordinates look up.
+  /// Transforms written inside this block's own braces; applied to uv lookups.
   Affine own;
-  /// Everything that moves this block: its own, then those of the blocks around it that stand after
-  /// it. To world space.
+  /// Transform to world space: the block's own transforms, then those of the enclosing blocks that
+  /// follow it.
   Affine world;
 
   const Value* find(const std::string& name) const noexcept {
@@ -93,10 +93,10 @@ struct Block {
 /// A whole scene: cameras, film, integrator, lights and shapes in the order written.
 struct SceneDesc {
   std::vector<Block> blocks;
-  std::vector<std::string> files;  ///< by Span::file, to find what a text names beside itself
-  std::uint64_t hash = 0;          ///< of the meaning, for the image's metadata
+  std::vector<std::string> files;  ///< by Span::file, to find files named relative to a text
+  std::uint64_t hash = 0;          ///< hash of the meaning, for the image's metadata
 
-  /// The last of a kind, which is the one that counts of cameras and integrators; or null.
+  /// The last block of a kind, or null. Only the last camera and the last integrator are used.
   const Block* last(const std::string& kind) const noexcept {
     for (auto b = blocks.rbegin(); b != blocks.rend(); ++b)
       if (b->kind == kind) return &*b;

@@ -9,39 +9,39 @@
 
 /// The scene as integrators see it.
 ///
-/// Said once, true of every method:
+/// Conventions of every method:
 ///   * Directions are in world space and unit; `toPrev` leaves the surface.
 ///   * Methods are const, thread-safe and noexcept; they allocate nothing.
 namespace vestige {
 
-/// One point where a ray met the scene: geometry only, nothing looked up yet.
+/// A hit of a ray with the scene: geometry only, without its material.
 struct Surface : SurfacePoint {
   Real distance = 0;    ///< along the ray, scene units
-  int object = -1;      ///< which placed shape: its material and its name
+  int object = -1;      ///< index of the placed shape, which has a material and a name
   int primitive = 0;    ///< triangle, or part of an analytic shape
   int light = -1;       ///< index into SceneView::lights() if it shines, else -1
   int patch = -1;       ///< index into SceneView::patches()
   Vec2 patchUv;         ///< [0,1]^2 in that patch
   Real offset = 0;      ///< how far a new ray starts off the surface, scene units
   bool closed = false;  ///< part of the boundary of a solid
-  Real time = 0;        ///< of the ray that met it
+  Real time = 0;        ///< time of the ray that hit it
 };
 
-/// A surface with its material looked up: what an integrator scatters at. Copying is cheap; the
-/// inputs point into the InputBuffer that shade() was given.
+/// A surface with its evaluated material, where an integrator scatters. Copying is cheap; the
+/// inputs point into the InputBuffer passed to shade().
 struct Interaction {
   const Brdf* brdf = nullptr;  ///< null: only emits, reflects nothing
   ScatterPoint point;          ///< local view for the BRDF
   Frame frame;                 ///< shading frame: n faces toPrev, s along dP/du
   Vec3 geometricNormal;        ///< faces toPrev
-  Rgb opacity{1, 1, 1};        ///< share that does not pass straight through: see drawPassage()
+  Rgb opacity{1, 1, 1};        ///< 1 - the share that passes straight through: see drawPassage()
   Vec3 toPrev;                 ///< world
 };
 
 struct LightChoice {
   int light;      ///< index into lights()
   Real chance;    ///< (0,1]
-  Real rest = 0;  ///< u stretched over the choice, [0,1); of few bits where the chance is small
+  Real rest = 0;  ///< u rescaled to [0,1) for reuse; has few bits if the chance is small
 };
 
 /// A piece of surface with an area of its own: one a triangle, one a face of an analytic shape.
@@ -62,63 +62,64 @@ class Tracer {
   /// (Filled in place: copying it would cost more than the shading of a diffuse surface.)
   virtual bool intersect(const Ray& ray, Surface& surface) const noexcept = 0;
 
-  /// Share of light that gets along the ray: the product of 1 - opacity over all that shadow rays
-  /// meet, whatever the ray's own kind.
+  /// Transmittance along the ray: the product of 1 - opacity over all surfaces that are visible to
+  /// shadow rays, whatever the ray's own kind.
   virtual Rgb transmittance(const Ray& ray) const noexcept = 0;
 
-  /// Extent of everything finite.
+  /// Bounds of all finite objects.
   virtual Bounds bounds() const noexcept = 0;
 };
 
-/// Looks materials up.
+/// Evaluates materials.
 class Materials {
  public:
   virtual ~Materials() = default;
 
-  /// Evaluates the material's inputs over the footprint, bends and maps the normal.
+  /// Evaluates the material's inputs over the footprint, and applies the normal map and the
+  /// correction of shading normals.
   virtual void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint,
                      InputBuffer& buffer, Interaction& result) const noexcept = 0;
-  /// Of all this only the opacity, [0, 1]. It is looked up at a point, here and in shade(): paths
-  /// and shadow rays must see the same one.
+  /// The opacity alone, [0, 1]. It is evaluated at a point, here and in shade(), because paths and
+  /// shadow rays must see the same opacity.
   virtual Rgb opacity(const Surface& surface) const noexcept = 0;
 
-  /// Whether any material or light looks something up over a footprint. If not, paths need carry
-  /// none.
+  /// Whether any material or light uses a footprint. If none does, paths need not carry one.
   virtual bool usesFootprints() const noexcept = 0;
-  /// Whether that of this surface does.
+  /// Whether this surface's material uses a footprint.
   virtual bool usesFootprint(const Surface& surface) const noexcept = 0;
-  /// Texels that one unit of uv spans in the finest texture of a surface; <0, 0>: it has none.
+  /// Texels per unit of uv in the finest texture of a surface; <0, 0>: no texture.
   virtual Vec2 texels(const Surface& surface) const noexcept = 0;
 };
 
-/// The lights, and how one of them is chosen.
+/// The lights, and the choice of one of them.
 class LightSet {
  public:
   virtual ~LightSet() = default;
 
   virtual std::span<const Light* const> lights() const noexcept = 0;
-  /// Indices into lights() of those at infinity.
+  /// Indices into lights() of the lights at infinity.
   virtual std::span<const int> infiniteLights() const noexcept = 0;
 
-  /// Chooses a light by its power: for particles, which start there.
+  /// Chooses a light by its power, to emit a particle.
   virtual std::optional<LightChoice> chooseLight(Real u) const noexcept = 0;
-  /// Chooses a light by what is likely to arrive at a receiver. Nullopt: nothing does from where u
-  /// points. Lights that are not drawn have no chance.
+  /// Chooses a light by its estimated contribution at a receiver. Nullopt: no light in the branch
+  /// chosen by u reaches the receiver. Lights without next-event estimation have probability 0.
   virtual std::optional<LightChoice> chooseLight(const Receiver& r, Real u) const noexcept = 0;
   /// Probability of that choice, [0,1].
   virtual Real lightChance(int light, const Receiver& r) const noexcept = 0;
-  /// Whether shadow rays meet just what indirect rays meet. If not, only shadow rays bring the
-  /// light of lights that are drawn: two strategies that see different scenes cannot be weighted.
+  /// Whether the same surfaces are visible to shadow rays and to indirect rays. If not, only shadow
+  /// rays count for sampled lights, because multiple importance sampling cannot combine strategies
+  /// that see different scenes.
   virtual bool shadowsMatchIndirect() const noexcept { return true; }
 
-  /// What the surface emits towards a receiver; black if it is no light.
+  /// Radiance that the surface emits towards a receiver; black if it is no light.
   virtual Rgb emitted(const Surface& surface, const Receiver& r) const noexcept = 0;
   /// Density with which the light of this surface would have been sampled for a receiver, 1/sr,
   /// chance of choosing it included.
   virtual Real lightPdf(const Surface& surface, const Receiver& r) const noexcept = 0;
 };
 
-/// All surfaces as patches with true areas: for integrators that keep light on surfaces.
+/// All surfaces as patches with true areas, for integrators that store light on surfaces.
 class PatchSet {
  public:
   virtual ~PatchSet() = default;
@@ -130,17 +131,17 @@ class PatchSet {
   virtual Real patchArea(int patch, Vec2 low, Vec2 high) const noexcept = 0;
 };
 
-/// The scene, as integrators see it: its four trades, and their methods by the same names. To stand
-/// in for one trade, as a test or a profiler does, write that interface and keep the others.
+/// The scene as integrators see it: four interfaces, and their methods under the same names. A test
+/// or a profiler can replace one interface and keep the others.
 struct SceneView {
   const Tracer& tracer;
   const Materials& materials;
   const LightSet& lightSet;
   const PatchSet& patchSet;
-  /// Where the origin of the space that everything here, cameras and lights included, is given in
-  /// stands in the scene's own coordinates: position + middle is what the scene's author knows, for
-  /// people and files. Zero where the scene stands around its origin; else near the scene, so that
-  /// positions keep their digits far from the origin. Directions and lengths are the same.
+  /// Origin of the space in which everything here, cameras and lights included, is given, in the
+  /// scene's own coordinates: position + middle is the position in the scene text. Zero unless the
+  /// scene lies far from its origin; then near the scene, so that positions keep their digits.
+  /// Directions and lengths are unchanged.
   Vec3 middle{};
 
   bool intersect(const Ray& ray, Surface& surface) const noexcept {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plugin accepts, as data: from these rows come type checking, error messages, `vestige
-// describe`, the manual and completion.
+// The parameters of a plugin as data: type checking, error messages, `vestige describe`, the manual
+// and completion are derived from these rows.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -30,7 +30,7 @@ enum class ValueType {
 };
 
 /// One row of a schema. Built by the functions below and the setters, which chain:
-///   real("exponent", 50).range(0, 1e6).doc("0 matt, 1000 almost a mirror")
+///   real("exponent", 50).range(0, 1e6).doc("0 diffuse, 1000 almost a mirror")
 struct Parameter {
   std::string name;
   ValueType type = ValueType::real;
@@ -38,16 +38,17 @@ struct Parameter {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool openLow = false;            ///< low itself is refused, as for a radius
-  bool required = false;           ///< a scene that leaves it out is refused
+  bool required = false;           ///< must be given in a scene
   bool positional = false;         ///< may stand without its name, in the order of the rows
   bool texturable = false;         ///< takes a pigment in place of a constant
-  bool isRefractiveIndex = false;  ///< of the inside of what the BRDF covers
-  bool isNonlinear = false;        ///< light is not linear in it: looked up at points, not averaged
+  bool isRefractiveIndex = false;  ///< refractive index of the inside of the surface
+  bool isNonlinear = false;        ///< light is not linear in it: evaluated at points, not averaged
   std::string unit;                ///< "degrees", "scene units", "W/sr", ...; "" is a plain number
   std::string help;                ///< one line
   std::vector<std::string> choices;
   std::string blockKind;
-  /// Of a list or a map. Range, unit, choices, block kind and pigments are those of each value.
+  /// Type of each value of a list or a map. Range, unit, choices, block kind and pigments apply to
+  /// each value.
   ValueType entryType = ValueType::real;
   int minEntries = 1;
   int maxEntries = std::numeric_limits<int>::max();
@@ -77,14 +78,14 @@ struct Parameter {
     highKey = to;
     return std::move(*this);
   }
-  /// Of which kind the blocks of a list are.
+  /// Sets the kind of the blocks in a list.
   Parameter&& of(std::string kind) && { return blockKind = std::move(kind), std::move(*this); }
   Parameter&& in(std::string u) && { return unit = std::move(u), std::move(*this); }
   Parameter&& doc(std::string h) && { return help = std::move(h), std::move(*this); }
   Parameter&& unset() && { return initial = {}, std::move(*this); }
 
   bool isList() const noexcept { return type == ValueType::list || type == ValueType::map; }
-  /// What one value of a list has to fit.
+  /// The row that each value of a list must fit.
   Parameter entry() const {
     Parameter row = *this;
     row.type = entryType;
@@ -181,7 +182,7 @@ inline Parameter block(std::string name, std::string kind) {
   return p;
 }
 
-/// `profile [<0, 0> <1, 2>]`: one or more values of a type, unless entries() says otherwise; no
+/// `profile [<0, 0> <1, 2>]`: one or more values of a type (or as many as entries() allows); no
 /// default. A name of an array gives them too.
 inline Parameter list(std::string name, ValueType entryType) {
   Parameter p = parameter(std::move(name), ValueType::list, {});
@@ -201,7 +202,7 @@ inline Parameter function(std::string name, int arity) {
   return p;
 }
 
-/// Everything that the scene language knows about one plugin.
+/// The complete description of a plugin for the scene language.
 struct Schema {
   std::string kind;     ///< "brdf", "light", "camera", "integrator", "pigment", "shape", ...
   std::string name;     ///< the word in the language; "" for a block without plugin (film, union)
@@ -211,10 +212,10 @@ struct Schema {
   std::vector<std::string> children = {};  ///< kinds of blocks that may stand inside
   // The engine sets these for the plugins of its own kinds.
   bool standsAlone = false;  ///< may stand outside every other block
-  bool isSingle = false;     ///< of several that stand alone only the last counts, with a warning
+  bool isSingle = false;     ///< only the last one that stands alone is used, with a warning
   bool isMovable = true;     ///< takes transforms: it has a place in space
 
-  /// The row of a name, or null.
+  /// The row with this name, or null.
   const Parameter* find(const std::string& word) const noexcept {
     for (const auto* rows : {&params, &inputs})
       for (const Parameter& p : *rows)

@@ -8,18 +8,18 @@
 
 #include <vestige/inputs.h>
 
-/// Surfaces: analytic ones, which intersect rays themselves, and meshes, which hand over triangles.
+/// Surfaces: analytic shapes, which intersect rays themselves, and meshes, which return triangles.
 ///
-/// Said once, true of every method:
-///   * A shape is asked in its own space; the engine transforms rays, points, normals and their
-///     derivatives, areas and densities, however the shape is scaled and rotated.
+/// Conventions of every method:
+///   * Methods work in the shape's own space; the engine transforms rays, points, normals and their
+///     derivatives, areas and densities.
 ///   * The normal of a closed shape points outwards.
 ///   * uv and its directions are those of the scene language (docs/language.md); where uv has a
 ///     pole, dP/du and dP/dv are finite and span the tangent plane.
 ///   * Methods are const, thread-safe and noexcept; they allocate nothing.
 namespace vestige {
 
-/// Triangles with what a file had to say about their corners.
+/// Triangles with the vertex data of a file.
 struct TriangleMesh {
   std::vector<Vec3> positions;
   std::vector<Vec3> normals;  ///< unit, one a position; empty: flat
@@ -27,30 +27,30 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// A mesh and what it is made of: files with several materials give several parts.
+/// A mesh with one material: files with several materials give several parts.
 struct MeshPart {
   TriangleMesh mesh;
   std::string name;  ///< of the material, for messages
-  /// The material as the language would have written it; null: the shape's own brdf. A `brdf` in
-  /// the scene text overrides it.
+  /// The material as a block of the scene language; null: the shape's own brdf. A `brdf` in the
+  /// scene text overrides it.
   std::shared_ptr<const Block> brdf;
   Value emission;  ///< kind none: does not shine
 };
 
-/// Where a ray meets an analytic shape.
+/// A hit of a ray with an analytic shape.
 struct ShapeHit {
   Real t = 0;    ///< in lengths of ray.direction
   int part = 0;  ///< which face: lid, side, ...
-  Vec2 uv{};     ///< handed back to surface(); for shapes whose search finds it anyway
+  Vec2 uv{};     ///< passed back to surface(); for shapes whose intersection finds it anyway
 };
 
-/// One of several meetings of a ray.
+/// One of several hits of a ray.
 struct Crossing {
   ShapeHit hit;
-  bool enters = false;  ///< runs against the normal: into the solid, if the shape is closed
+  bool enters = false;  ///< the ray runs against the normal: into the solid, if the shape is closed
 };
 
-/// The surface at a point: position, normals, uv, and how position and normal move with uv.
+/// The surface at a point: position, normals, uv, and the derivatives of position and normal by uv.
 struct SurfacePoint {
   Vec3 position;         ///< on the surface, within rounding
   Vec3 geometricNormal;  ///< unit
@@ -58,8 +58,8 @@ struct SurfacePoint {
   Vec2 uv;
   Vec3 dPdu, dPdv;  ///< scene units per unit of uv
   Vec3 dNdu, dNdv;  ///< of `normal`; zero where flat
-  /// Second derivatives of position, scene units per unit of uv squared: how the tangents turn in
-  /// the surface as one walks on it. Zero on triangles and wherever uv is a straight grid.
+  /// Second derivatives of position, scene units per unit of uv squared. Zero on triangles and
+  /// wherever uv is a straight grid.
   Vec3 dPduu, dPduv, dPdvv;
 
   /// A point of a flat surface with straight uv: all other derivatives are zero.
@@ -82,7 +82,7 @@ struct AreaSample {
   Real pdf;     ///< per unit of area, > 0
 };
 
-/// A direction towards the shape, drawn by the angle that it fills.
+/// A direction towards the shape, drawn by solid angle.
 struct ConeSample {
   Vec3 toShape;   ///< unit
   Real distance;  ///< to the first point met
@@ -91,7 +91,7 @@ struct ConeSample {
 /// First derivatives of ConeSample::toShape.
 struct ConeJacobian {
   Mat3x2 du;   ///< per unit of random number
-  Mat3 dFrom;  ///< per scene unit of the point that looks
+  Mat3 dFrom;  ///< per scene unit of the receiver's position
 };
 
 class Shape {
@@ -101,31 +101,31 @@ class Shape {
   /// Infinite in some direction for a plane.
   virtual Bounds bounds() const noexcept = 0;
 
-  /// First meeting with t in (ray.tMin, ray.tMax), either side. The origin may lie on the surface
-  /// within rounding; the engine then has set tMin.
+  /// The first hit with t in (ray.tMin, ray.tMax), from either side. If the origin lies on the
+  /// surface, the engine has set tMin accordingly.
   virtual std::optional<ShapeHit> intersect(const Ray& ray) const noexcept = 0;
 
   /// The surface at a point that intersect() or crossings() found (`near` lies on it within
-  /// rounding). hit.t means nothing here: the ray may have been in another space.
+  /// rounding). hit.t is undefined here: the ray may have been in another space.
   virtual SurfacePoint surface(Vec3 near, const ShapeHit& hit) const noexcept = 0;
 
-  /// Meetings with t in (ray.tMin, ray.tMax) in ascending order, the first being intersect()'s;
-  /// returns how many. More than `found` holds: its size, and the nearest ones. Along a line those
-  /// of a closed shape enter and leave in turn; a ray that touches it gives two or none. By
-  /// default: intersect() again and again, each time a few rounding steps further.
+  /// All hits with t in (ray.tMin, ray.tMax) in ascending order; the first one is that of
+  /// intersect(). Returns their number, at most found.size(): then only the nearest hits are given.
+  /// The hits of a closed shape enter and leave in turn; a ray that touches it gives two hits or
+  /// none. By default: repeated calls of intersect(), each a few rounding steps further.
   virtual int crossings(const Ray& ray, std::span<Crossing> found) const noexcept;
 
-  /// Whether it bounds a solid: rays inside it see its back.
+  /// Whether the surface bounds a solid: rays inside it hit its back.
   virtual bool isClosed() const noexcept = 0;
 
-  /// Total area; 0: it has none that could shine (infinite).
+  /// Total area; 0 if it is infinite: such a shape cannot emit light.
   virtual Real area() const noexcept = 0;
 
-  /// Uniform by area; only where area() > 0.
+  /// Draws a point uniformly by area; called only if area() > 0.
   virtual AreaSample samplePoint(Vec2 u) const noexcept = 0;
 
-  /// By solid angle; nullopt: the shape has no such sampler or `from` lies inside, use
-  /// samplePoint().
+  /// Draws a direction by solid angle; nullopt if the shape has no such sampler or `from` lies
+  /// inside: use samplePoint() then.
   virtual std::optional<ConeSample> sampleToward(Vec3 /*from*/, Vec2 /*u*/) const noexcept {
     return std::nullopt;
   }
@@ -133,13 +133,12 @@ class Shape {
   virtual Real towardPdf(Vec3 /*from*/) const noexcept { return 0; }
   virtual ConeJacobian towardDerivatives(Vec3 /*from*/, Vec2 /*u*/) const noexcept { return {}; }
 
-  /// Faces that uv in [0,1]^2 covers once each, as patches for integrators; 0: the shape offers
-  /// none.
+  /// Number of faces, each covered once by uv in [0,1]^2: the patches of SceneView. 0: no patches.
   virtual int faces() const noexcept { return 0; }
-  /// The point of a face at uv: what surface() says of the point that has this uv.
+  /// The point of a face at uv; equals surface() at that point.
   virtual SurfacePoint at(Vec2 /*uv*/, int /*face*/) const noexcept { return {}; }
 
-  /// Triangles in place of all of the above, which the engine then never calls; null: analytic.
+  /// Triangles that replace all methods above, which the engine then never calls; null: analytic.
   virtual const std::vector<MeshPart>* parts() const noexcept { return nullptr; }
 };
 

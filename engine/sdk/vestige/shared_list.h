@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the copies of a scene description share: lists and texts. A scene with a thousand copies of
-// one shape holds its settings once.
+// Lists and texts that copies of a scene description share. A scene with a thousand copies of one
+// shape stores its settings once.
 #pragma once
 #include <initializer_list>
 #include <iterator>
@@ -14,7 +14,7 @@ namespace vestige {
 
 /// A list that its copies share until one of them is changed. Read it as a std::vector; change it
 /// through edit() or push_back(), which copy the elements first where another list has them too.
-/// Any thread may read; a list and its copies are to be changed by one thread at a time.
+/// Any thread may read; only one thread at a time may change a list or its copies.
 template <class T>
 class SharedList {
  public:
@@ -41,7 +41,7 @@ class SharedList {
     return *items_;
   }
   void push_back(T item) { edit().push_back(std::move(item)); }
-  /// Whether both are one list in memory.
+  /// Whether both share one list in memory.
   bool sharesWith(const SharedList& other) const noexcept { return items_ == other.items_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A vector that is indexed by int, as objects, lights and patches are numbered.
+// A vector indexed by int, for tables of objects, lights and patches.
 #pragma once
 #include <cassert>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace vestige {
 
-/// At most 2^31 - 1 entries. An index outside [0, size()) is a broken promise: an assert.
+/// At most 2^31 - 1 entries. An index outside [0, size()) violates the contract: an assert.
 template <class T>
 class Table {
  public:

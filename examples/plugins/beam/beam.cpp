@@ -19,7 +19,7 @@ class Beam final : public AreaLight {
                        vec3("point_at", {0, 0, 1}).in("scene units").doc("where its axis goes"),
                        real("radius", 1).positive().in("scene units").doc("of the disc"),
                        rgb("radiance", 1).range(0, 1e12).in("W/(m^2 sr)").doc("along the axis"),
-                       real("exponent", 10).range(0, 1000).doc("0 is matt, 20 a narrow beam")}};
+                       real("exponent", 10).range(0, 1000).doc("0 is diffuse, 20 a narrow beam")}};
   }
 
   explicit Beam(const Values& values)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What production renderers do, built for comparison: a cone around the path, as wide as the
-// pixel's share at the start and opened at every scattering by a rule of thumb. It knows neither
-// how many samples share a scattering nor its shape.
+// Heuristics of production renderers, for comparison: a cone around the path that starts as wide as
+// the pixel's share and is opened at every scattering by a rule of thumb. It depends neither on the
+// number of samples that share a scattering nor on the lobe's shape.
 #pragma once
 #include <vestige/footprint/deltas.h>
 #include <vestige/integrator.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a random number may be moved: the region that one path stands for, number by number.
+// Deltas: the interval of each random number that one path represents.
 //
 // The paths of a pixel (or of a light) share the unit square of each number among them; delta is
 // the share of one of them. Few paths: wide footprints. [PD01 Sec. 3, MATH 3]
@@ -10,7 +10,7 @@
 
 namespace vestige {
 
-/// Where deltas come from; words of the scene language (docs/language.md, footprint).
+/// The bounds of deltas; words of the scene language (docs/language.md, footprint).
 enum class Bound {
   none,       ///< no footprints at all
   pixel,      ///< the film's numbers only: Igehy's ray differentials
@@ -18,7 +18,8 @@ enum class Bound {
   global,     ///< N_eff^(-1/M): all numbers share what the whole path has [PD01 Sec. 3.1]
   roughness,  ///< a cone, opened by the lobe's roughness: for comparison (cone.h)
   density,    ///< a cone, opened by the density of what was drawn: for comparison
-  safe,       ///< by the own index in the pixel, safeDelta(): shrinks fast enough never to lose
+  safe,  ///< by the sample's index in the pixel, safeDelta(): shrinks fast enough never to be worse
+         ///< than points
 };
 
 struct DeltaPolicy {
@@ -28,34 +29,35 @@ struct DeltaPolicy {
   Real limit = kInfinity;
   Real scale = 1;     ///< multiplies the bound
   Real exponent = 0;  ///< replaces that of global (1/M) or safe (2/3); 0: as it is
-  /// Numbers that global counts at least. Particles of two numbers: with 1/2 no element would ever
-  /// get more of them than one, however many there are; with 1/3 it does [MATH 4].
+  /// Least number of random numbers that `global` counts. With two (exponent 1/2) an element would
+  /// never receive more than one particle, however many are sent; with three (1/3) it does [MATH
+  /// 4].
   int fewest = 1;
 };
 
-/// Of the n-th of samples: n^(-2/3). Those that share two numbers, the film's, lie scattered over
-/// the pixel and must overlap to cover it: 1.6 times that (docs/adr/0006).
+/// Delta of the n-th sample: n^(-2/3). Samples with the film's two random numbers only lie
+/// scattered over the pixel and must overlap to cover it: 1.6 times that (docs/adr/0006).
 inline Real safeDelta(Real n, int variables) noexcept {
   const Real delta = 1 / sqr(std::cbrt(n));
   return variables <= 2 ? std::min(Real(1), Real(1.6) * delta) : delta;
 }
 
-/// How many paths there are like this one, and how many numbers made it.
+/// The number of paths like this one, and of its random numbers.
 class PathCount {
  public:
   /// `index`: of this sample in its pixel; `declared`: samples a pixel (particles of all lights)
-  /// the user asked for, 0 if open ended, then index + 1 stands for it.
+  /// in the scene, 0 if open ended: index + 1 then replaces it.
   void begin(std::uint64_t index, std::uint64_t declared, int variables) noexcept {
     index_ = Real(index + 1);
     total_ = declared > 0 ? Real(declared) : index_;
     share_ = 1, variables_ = variables;
   }
-  /// A discrete choice that this path survived, with its probability: roulette (survival!), lobe,
-  /// light, opacity. Fewer paths are like it.
+  /// Records a discrete choice that this path survived, with its probability: roulette (of
+  /// survival), lobe, light, opacity. Reduces the number of paths like it.
   void chance(Real probability) noexcept { share_ *= probability; }
-  /// A splitting into n children.
+  /// Records a split into n children.
   void split(Real n) noexcept { share_ *= n; }
-  /// Numbers drawn at an event: 2, or 0 if specular.
+  /// Records the random numbers of an event: 2, or 0 if specular.
   void drew(int numbers) noexcept { variables_ += numbers; }
 
   Real effective() const noexcept { return total_ * share_; }  ///< N_eff
@@ -68,8 +70,8 @@ class PathCount {
   int variables_ = 0;
 };
 
-/// The bound that all numbers of a path share, in [0, 1]; for `pixel` and `local` that of the
-/// film's numbers.
+/// The bound common to all random numbers of a path, in [0, 1]; for `pixel` and `local` that of the
+/// film's.
 inline Real commonDelta(const DeltaPolicy& policy, const PathCount& count) noexcept {
   Real delta = 0;
   switch (policy.bound) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a path moves with the random numbers that made it: first derivatives of its vertex, direction
-// and contribution, carried from event to event by the chain rule.
+// Derivatives of a path by its random numbers: first derivatives of its vertex, direction and
+// contribution, propagated from event to event by the chain rule.
 //
 // A *differential* is a change per unit of a random number; no delta is multiplied in, because some
-// deltas change at every vertex [MATH 0]. Only what lies across the ray counts: a vertex that moves
-// along its ray is met at the same point of the next surface, and a unit direction has no other way
-// to go. So four components (two of dV, two of dD) and the gradient are a row, one row a number;
-// four rows go through each step at once.
+// deltas change at every vertex [MATH 0]. Only components perpendicular to the ray are stored:
+// moving a vertex along its ray does not change the next hit, and the derivative of a unit
+// direction has no other components. So four components (two of dV, two of dD) and the gradient are
+// a row, one row a number; four rows go through each step at once.
 //
 // [PD01]  Suykens, Willems. Path differentials and applications. EGWR 2001.
 // [Ige99] Igehy. Tracing ray differentials. SIGGRAPH 1999.
@@ -28,15 +28,15 @@ inline constexpr Real kLeastCosine = Real(1e-3);
 // These two are filled in place: a structure of scalars that is copied right after it was written
 // stalls the processor, and costs more than the derivatives in it.
 
-/// How uv and the normal move as one walks on a surface.
+/// Derivatives of uv and of the normal along a surface.
 struct SurfaceMotion {
   Vec3 normal;         ///< unit shading normal that faces the path, before any normal map
   Vec3 du, dv;         ///< gradients of u and v: d(uv) = (du . dV, dv . dV)
   Vec3 dNdu, dNdv;     ///< of that normal, per unit of u and v
-  bool isFlat = true;  ///< neither normal nor tangents turn as one walks on it
+  bool isFlat = true;  ///< normal and tangents are constant
 
-  /// [MATH 1.4]. For a path that arrives along `direction`: a normal that is turned to face it
-  /// changes with the opposite sign. Degenerate uv: no change.
+  /// [MATH 1.4]. For a path that arrives along `direction`: the derivative of a normal that was
+  /// flipped to face the path has the opposite sign. Degenerate uv: zero.
   void arrive(const SurfacePoint& s, Vec3 direction) noexcept {
     const bool behind = dot(direction, s.geometricNormal) > 0;
     const bool turned = dot(s.normal, s.geometricNormal) < 0;
@@ -54,8 +54,8 @@ struct SurfaceMotion {
   }
 };
 
-/// How a shading frame turns as one walks on its surface: omega per unit of u and of v. Its s lies
-/// along dP/du: the least turn that carries n along, and a twist about n that keeps s there.
+/// Rotation of a shading frame along its surface: omega per unit of u and of v. Its s lies along
+/// dP/du: the least turn that carries n along, and a twist about n that keeps s there.
 struct FrameMotion {
   Vec3 spinU, spinV;  ///< rad: ds = omega x s, likewise t and n
   bool isStill;       ///< both are zero
@@ -85,7 +85,7 @@ struct FrameMotion {
   }
 };
 
-/// Everything about one event that is the same for all differentials. World space.
+/// The part of one event that is the same for all differentials. World space.
 struct ScatterEvent {
   const Frame& frame;  ///< shading frame, n faces the path
   Vec3 leaving;        ///< D', unit
@@ -93,13 +93,13 @@ struct ScatterEvent {
   const FrameMotion& motion;
 };
 
-/// How the log of the contribution changes at one event; local.
+/// Gradient of the log of the contribution at one event; local.
 struct EventGradient {
   Vec3 byPrev;  ///< for a change of toPrev
   Vec3 byNext;  ///< for a change of toNext
 };
 
-/// Of f cos [PD01 Eq. 13].
+/// Gradient of log(f cos) [PD01 Eq. 13].
 inline EventGradient contributionGradient(const ScatterEvent& e, const LogGradient& log) noexcept {
   const Real c = dot(e.frame.n, e.leaving);
   const Real byCosine = std::copysign(1 / std::max(std::abs(c), kLeastCosine), c);
@@ -131,7 +131,7 @@ inline Four inverseRoot(const Four& v) noexcept {
 
 }  // namespace detail
 
-/// K differentials of a path. Lanes is the most that fit; a multiple of 4.
+/// K differentials of a path, K <= Lanes; Lanes is a multiple of 4.
 template <int Lanes>
 class Differentials {
  public:
@@ -163,16 +163,16 @@ class Differentials {
   const Frame& ray() const noexcept { return ray_; }  ///< axes across the ray; n = D
   Vec3 slideS() const noexcept { return slideS_; }    ///< dV on the surface, per unit along s
   Vec3 slideT() const noexcept { return slideT_; }
-  /// dV of the numbers from 4 b on, as components along two directions.
+  /// dV of random numbers 4 b to 4 b + 3, as components along two directions.
   FourVec2 verticesAlong(int b, Vec3 s, Vec3 t) const noexcept {
     const FourVec2& v = blocks_[b].v;
     return {dot(s, slideS_) * v.x + dot(s, slideT_) * v.y,
             dot(t, slideS_) * v.x + dot(t, slideT_) * v.y};
   }
 
-  /// Of four numbers: the bound after the gradient's limit [PD01 Eq. 14] and the width of a sphere:
-  /// a differential vector longer than that means nothing [MATH 2.5]. A gradient of zero limits
-  /// nothing.
+  /// Deltas of four random numbers: the bound, limited by the gradient [PD01 Eq. 14] and by the
+  /// width of a sphere, beyond which a direction differential has no meaning [MATH 2.5]. A zero
+  /// gradient sets no limit.
   Four deltas(int b, Four bound, Real limit) const noexcept {
     const Block& r = blocks_[b];
     Four d = bound;
@@ -186,7 +186,7 @@ class Differentials {
     return d < widest ? d : widest;
   }
 
-  /// Starts with the numbers of a camera, or of a light's emission.
+  /// Starts with the random numbers of a camera, or of a light's emission.
   void begin(const RayJacobian& ray, Vec3 direction, int variables) noexcept {
     size_ = 0;
     leave(Frame::around(direction));
@@ -194,8 +194,8 @@ class Differentials {
       append(ray.dOrigin[std::size_t(j)], ray.dDirection[std::size_t(j)], 0);
   }
 
-  /// To the point where the ray meets a surface at distance t [Ige99 Eq. 10, 12; MATH 1.3].
-  /// n is the geometric normal, either side. `limit`: no dV grows beyond it (the scene's size).
+  /// Moves to the surface hit at distance t [Ige99 Eq. 10, 12; MATH 1.3]. n is the geometric
+  /// normal, either side. `limit`: no dV grows beyond it (the scene's size).
   void transfer(Real t, Vec3 n, Real limit) noexcept {
     const Real c = dot(ray_.n, n), divisor = std::copysign(std::max(std::abs(c), kGrazing), c);
     slideS_ = ray_.s - (dot(n, ray_.s) / divisor) * ray_.n;
@@ -216,10 +216,10 @@ class Differentials {
     }
   }
 
-  /// Through an event at fixed random numbers: chain rule on every differential, then, unless
-  /// specular, the two numbers of this event are appended [PD01 Eq. 4, 5; MATH 1.5 to 1.10].
-  /// Without `gradient` g stays as it is: where nobody asks for it, and at specular events, whose
-  /// weight has no cosine and whose chance follows Fresnel's term.
+  /// Moves through an event at fixed random numbers: applies the chain rule to every differential,
+  /// then, unless specular, appends the two random numbers of this event [PD01 Eq. 4, 5; MATH 1.5
+  /// to 1.10]. Null `gradient` leaves g unchanged: if no limit uses it, and at specular events,
+  /// whose weight has no cosine and whose probability follows Fresnel's term.
   ///
   /// The frame turns by omega; seen from it the path arrives from dp = F^T(-dD + omega x D), and
   /// leaves at F dPrev dp + omega x D' (DESIGN 3.2, MATH 1.7). Linear in dD across the ray and in
@@ -273,8 +273,9 @@ class Differentials {
                dot(steep.byNext, q));
   }
 
-  /// The connection to a light in the direction e.leaving: how that direction and f cos L move, the
-  /// light's own two numbers last [MATH 1.11, 1.14]. The path's own differentials stay as they are.
+  /// The connection to a light in the direction e.leaving: differentials of that direction and of f
+  /// cos L, with the light's two random numbers last [MATH 1.11, 1.14]. The path's own
+  /// differentials are unchanged.
   Differentials<Lanes + 4> connect(const ScatterEvent& e, const LogGradient& log,
                                    const LightJacobian& light,
                                    const LightLogGradient& lightLog) const noexcept {
@@ -296,8 +297,8 @@ class Differentials {
     return all;
   }
 
-  /// One more number, of which what lies across the ray is kept; ignored when all lanes are taken
-  /// (reduce() before).
+  /// Appends a random number; keeps the components perpendicular to the ray. Ignored if all lanes
+  /// are taken (call reduce() first).
   void append(Vec3 dV, Vec3 dD, Real g) noexcept {
     append(Vec2{dot(ray_.s, dV), dot(ray_.t, dV)}, {dot(ray_.s, dD), dot(ray_.t, dD)}, g);
   }
@@ -317,15 +318,15 @@ class Differentials {
   }
   void clear() noexcept { size_ = 0; }
 
-  /// The gradients of another's first numbers, which are this one's.
+  /// Copies the gradients of the random numbers that both paths share, the first ones of `other`.
   template <int More>
   void takeGradients(const Differentials<More>& other) noexcept {
     for (int b = 0; b < blocks(); ++b) blocks_[b].g = other.block(b).g;
   }
 
  private:
-  /// Two numbers of one event, which move the direction only. Built in registers: lanes written one
-  /// by one make the next read of their block wait.
+  /// Appends the two random numbers of one event, which change the direction only. Built in
+  /// registers: lanes written one by one make the next read of their block wait.
   void appendPair(Vec2 p, Vec2 q, Real gp, Real gq) noexcept {
     if (size_ % 2 == 1 || size_ == Lanes) {
       append(Vec2{}, p, gp), append(Vec2{}, q, gq);

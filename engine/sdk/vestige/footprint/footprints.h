@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From differential vectors (delta multiplied in) to the region that they span: an ellipse, PD01's
+// The region that differential vectors (delta multiplied in) span: an ellipse, PD01's
 // parallelogram, or the exact polygon.
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001. Sec. 2.1, Fig. 3
@@ -10,7 +10,8 @@
 
 namespace vestige {
 
-/// Two vectors that stand for all, full length: axes of an ellipse, or sides of a parallelogram.
+/// Two vectors that represent all differential vectors, full length: axes of an ellipse, or sides
+/// of a parallelogram.
 struct Region {
   Vec2 a, b;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The `footprint` block of the scene language:
 //     integrator path { footprint gradient { limit 0.5 } }
-// An integrator includes this where it reads its parameters, and nowhere else.
+// An integrator includes this header only where it reads its parameters.
 #pragma once
 #include <vestige/footprint/settings.h>
 #include <vestige/scene_desc.h>

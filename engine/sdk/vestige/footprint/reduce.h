@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many differentials into four (five with the gradient) that have the same second moments. Every
-// later event is linear, so all ellipses stay what they were; a long path costs no more than a
-// short one. Exact polygons do not survive this [MATH 2.4].
+// later event is linear, so all later ellipses are unchanged, and the cost of a path stays linear
+// in its length. Exact polygons are lost [MATH 2.4].
 #pragma once
 #include <vestige/footprint/differentials.h>
 
 namespace vestige {
 namespace detail {
 
-/// Lower triangle of L with L L^T = S for a positive semidefinite S of unit traces, in place. What
-/// is below rounding becomes a column of zeros.
+/// Lower triangle of L with L L^T = S for a positive semidefinite S of unit traces, in place.
+/// Columns below rounding become zero.
 template <int N>
 void factor(Real (&s)[N][N]) noexcept {
   constexpr Real kLeastPivot = 64 * std::numeric_limits<Real>::epsilon();
@@ -39,7 +39,7 @@ void reduceTo(Differentials<Lanes>& d, const Four* weights) noexcept {
       for (int b = 1; b < d.blocks(); ++b) sum += rows[i][b] * rows[k][b];
       s[i][k] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
     }
-  // Positions, directions and gradients have units of their own: each block to unit trace.
+  // Positions, directions and gradients have different units: each block is scaled to unit trace.
   Real unit[N], inverse[N];
   for (int i = 0; i < N; ++i) {
     const int first = i & ~1, second = std::min(first + 1, N - 1);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a PathFootprint follows and where it is limited: plain values. footprint/language.h reads
-// them from a scene.
+// Settings of a PathFootprint. footprint/language.h reads them from a scene.
 #pragma once
 #include <vestige/footprint/deltas.h>
 
@@ -11,13 +10,13 @@ enum class RegionShape {
   representative,  ///< PD01's two vectors
 };
 
-/// Whose relative change the limit watches.
+/// The quantity whose relative change is limited.
 enum class Limited {
   contribution,  ///< F, whatever was importance sampled
   score,         ///< F/p [PD01 Sec. 3.4]
 };
 
-/// What a path that is joined to a light adds to that change.
+/// The contribution of a connection to a light to that change.
 enum class LightTerm {
   constant,  ///< nothing: the footprint is that of the path up to the surface [PD01 3.2]
   exact,     ///< f cos towards the light, and the light's own factor: Light::logGradient()
@@ -28,7 +27,7 @@ struct FootprintSettings {
   Limited limited = Limited::contribution;
   LightTerm light = LightTerm::constant;
   RegionShape shape = RegionShape::covariance;
-  bool alongMajor = false;  ///< pictures are looked up as PD01 does
+  bool alongMajor = false;  ///< images are filtered as in PD01
   bool isOn() const noexcept { return deltas.bound != Bound::none; }
 };
 

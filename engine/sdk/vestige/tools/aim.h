@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lights with an axis share: where they stand and where they shine.
+// Location and axis of lights that are aimed at a point.
 #pragma once
 #include <vestige/plugin.h>
 #include <vestige/tools/words.h>
@@ -11,8 +11,8 @@ struct Aim {
   Frame frame;  ///< n: the axis, from the location to the point aimed at
 };
 
-/// From two rows of the schema, in the block's own space. Throws PluginError where they are one
-/// point.
+/// Reads both from two rows of the schema, in the block's own space. Throws PluginError if the two
+/// points coincide.
 inline Aim ownAim(const Values& values, int locationRow, int pointAtRow) {
   const Vec3 location = values.vec3(locationRow), at = values.vec3(pointAtRow);
   const Vec3 axis = normalize(at - location);
@@ -22,7 +22,7 @@ inline Aim ownAim(const Values& values, int locationRow, int pointAtRow) {
   return {location, Frame::around(axis)};
 }
 
-/// The same in world space: both points are moved by the block's transform.
+/// The same in world space: the block's transform is applied to both points.
 inline Aim aim(const Values& values, int locationRow, int pointAtRow) {
   ownAim(values, locationRow, pointAtRow);
   const Vec3 location = values.toWorld().point(values.vec3(locationRow));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths that branch: which random numbers each branch draws, how the rays of a split are
-// stratified, and the second lobe that a fork follows.
+// Paths that branch: the random numbers of each branch, the stratification of a split, and the
+// second lobe of a fork.
 #pragma once
 #include <vestige/footprint.h>
 
@@ -8,14 +8,14 @@
 
 namespace vestige {
 
-/// A drawn continuation of a path, and the random numbers that it was drawn with.
+/// A sampled continuation of a path, with its random numbers.
 struct Continuation {
   ScatterNumbers numbers;
   std::optional<Scatter> scatter;  ///< empty: the path is absorbed
 };
 
-/// Which random numbers a path draws: at each vertex dimensions of its own, and in each dimension
-/// the number of its index. Branches of a path get different streams.
+/// The random numbers of a path: each vertex has its own dimensions, and in each dimension the path
+/// uses the number of its index. Branches of a path get different streams.
 struct RandomStream {
   std::uint32_t index = 0;
   std::uint32_t firstVertex = 0;  ///< number of the first vertex, which chooses the dimensions
@@ -42,8 +42,8 @@ struct RandomStream {
   static constexpr std::uint64_t kIndices = std::uint64_t(1) << 32;
 };
 
-/// How the pairs of numbers of a split are stratified: as a (0,2)-net where their count is a power
-/// of two, else over a grid as square as the count allows, 6 as 2 x 3.
+/// Stratification of a split's pairs of random numbers: a (0,2)-net if their count is a power of
+/// two, else a grid as square as the count allows (6 as 2 x 3).
 struct SplitStrata {
   int count = 1;
   int columns = 0;  ///< 0: a net
@@ -70,9 +70,9 @@ struct SplitStrata {
   }
 };
 
-/// The lobe that was not drawn, where a rough dielectric is met from inside: one ray of 25 is
-/// reflected there, and may bring all the light of a lamp. Empty where the two lobes are not the
-/// only ones. Must depend on the direction numbers of `drawn` only, never on the lobe drawn;
+/// The lobe that was not drawn, for a path that hits a rough dielectric from inside: there one ray
+/// of 25 is reflected, and may carry all the light of a lamp. Empty if the BRDF has other lobes
+/// than these two. Must depend on the direction numbers of `drawn` only, never on the lobe drawn;
 /// otherwise the estimate is biased.
 inline std::optional<Continuation> otherLobe(const Interaction& x,
                                              const Continuation& drawn) noexcept {

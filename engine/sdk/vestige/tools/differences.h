@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derivatives of a routine from its own values, for plugins that do not write theirs. Slower and
-// less exact than a formula: a float keeps about three digits of a derivative, a double about nine.
+// Finite differences, for plugins without derivatives of their own. They are slower and less exact
+// than a formula: about three digits in float, nine in double.
 #pragma once
 #include <vestige/math.h>
 #include <optional>
 
 namespace vestige::differences {
 
-/// First step, in the units of the argument; what is smooth is smooth on the scale of 1.
+/// First step, in the units of the argument; functions are assumed to be smooth on the scale of 1.
 inline constexpr Real kStep = sizeof(Real) == 8 ? Real(1e-3) : Real(8e-3);
-/// An estimate this good, relative to the derivative, ends the search for a better step.
+/// An estimated relative error this small ends the search for a better step.
 inline constexpr Real kGoodEnough = sizeof(Real) == 8 ? Real(1e-6) : Real(1e-3);
-/// Tries, each with a quarter of the step before.
+/// Number of steps tried, each a quarter of the one before.
 inline constexpr int kTries = 5;
 
 inline Real magnitude(Real x) noexcept { return std::abs(x); }
 inline Real magnitude(Vec3 x) noexcept { return length(x); }
 
-/// A derivative, and how far off it may be.
+/// A derivative with its estimated error.
 template <class Value>
 struct Slope {
   Value value{};
@@ -28,9 +28,10 @@ struct Slope {
   }
 };
 
-/// With one step. `map` takes a Real to an optional Value (nullopt: the map has no value there, or
-/// another branch of it); `here` is map(0). Two orders of one stencil tell the error of the lower;
-/// at a seam, where those or the slopes of both sides disagree, the side without the seam wins.
+/// The derivative from one step. `map` takes a Real to an optional Value (nullopt: no value, or
+/// another branch of the map); `here` is map(0). The difference of two orders of one stencil
+/// estimates the error. At a seam, where the orders or the slopes of both sides disagree, the side
+/// without the seam is used.
 template <class Map, class Value>
 Slope<Value> slopeWithStep(const Map& map, Value here, Real h) noexcept {
   Slope<Value> best;
@@ -40,7 +41,7 @@ Slope<Value> slopeWithStep(const Map& map, Value here, Real h) noexcept {
   };
   if (back2 && back && next && next2) {
     const Value near = (*next - *back) * (1 / (2 * h)), far = (*next2 - *back2) * (1 / (4 * h));
-    // The far slope errs four times as much as the near one, the same way.
+    // The far slope has four times the error of the near one, with the same sign.
     const Value central = (Real(4) * near - far) * (Real(1) / 3);
     const Value kink = quadratic(*next, *next2, h) - quadratic(*back, *back2, -h);
     best.keepBetter(central, std::max(magnitude(central - near), magnitude(kink)));
@@ -58,8 +59,8 @@ Slope<Value> slopeWithStep(const Map& map, Value here, Real h) noexcept {
   return best;
 }
 
-/// d map / d x at 0, from steps `h` and below; zero where nothing can be said. `noise`: how large
-/// the values are that the map rounds.
+/// d map / d x at 0, from steps `h` and below; zero if no estimate is possible. `noise`: magnitude
+/// of the values that the map rounds.
 template <class Map, class Value>
 Value derivative(const Map& map, Value here, Real h, Real noise = 1) noexcept {
   Slope<Value> best;
@@ -72,13 +73,13 @@ Value derivative(const Map& map, Value here, Real h, Real noise = 1) noexcept {
   return std::isfinite(magnitude(best.value)) ? best.value : Value{};
 }
 
-/// v, moved with the smallest turn that takes unit a to unit b, b != -a.
+/// v rotated by the smallest rotation that takes unit a to unit b, b != -a.
 inline Vec3 carried(Vec3 a, Vec3 b, Vec3 v) noexcept {
   const Vec3 w = cross(a, b);
   return v + cross(w, v) + cross(w, cross(w, v)) / std::max(1 + dot(a, b), Real(1e-6));
 }
 
-/// The point an angle away from a unit vector along a unit tangent.
+/// A unit vector rotated by an angle towards a unit tangent.
 inline Vec3 turned(Vec3 unit, Vec3 along, Real angle) noexcept {
   return std::cos(angle) * unit + std::sin(angle) * along;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Direct light at a vertex, estimated in two ways: by directions drawn towards lights (next-event
-// estimation), and by the rays that scattering draws where they meet a light. Multiple importance
-// sampling weighs the two [Vea97 9.2]. Shared by all integrators that follow paths from the eye.
+// Direct light at a vertex, estimated by two strategies: directions drawn towards lights
+// (next-event estimation), and scattered rays that hit a light. Multiple importance sampling
+// weights both [Vea97 9.2]. Shared by all integrators that follow paths from the eye.
 //
 // [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace vestige {
 
-/// What multiple importance sampling has to know of a ray.
+/// A ray as multiple importance sampling needs it.
 struct DrawnRay {
   Receiver from;             ///< the last scattering, where directions to lights were drawn too
   Real density = kInfinity;  ///< pdf of its direction times the number of such rays, 1/sr; infinite
@@ -21,12 +21,12 @@ struct DrawnRay {
   bool isUnrivalled() const noexcept { return !(density < kInfinity); }
 };
 
-/// Whether only shadow rays bring the light that a ray met; `rival`: their density.
+/// Whether only shadow rays count for the light that a ray hit; `rival`: their density.
 inline bool isLeftToShadowRays(const SceneView& scene, Real rival) noexcept {
   return rival > 0 && !scene.shadowsMatchIndirect();
 }
 
-/// The radiance of a light that the ray met, weighted.
+/// Weighted radiance of the light that the ray hit.
 inline Rgb metLight(const SceneView& scene, const Surface& s, const DrawnRay& ray) noexcept {
   if (s.light < 0) return {};
   const Rgb radiance = scene.emitted(s, ray.from);
@@ -36,8 +36,8 @@ inline Rgb metLight(const SceneView& scene, const Surface& s, const DrawnRay& ra
   return powerHeuristic(ray.density, rival) * radiance;
 }
 
-/// The radiance of the lights at infinity along a ray that left the scene, weighted. `spread`: two
-/// vectors across the direction over which they are averaged, if any.
+/// Weighted radiance of the lights at infinity along a ray that left the scene. `spread`: two
+/// vectors perpendicular to the direction, over which the radiance is averaged; may be null.
 inline Rgb background(const SceneView& scene, const DrawnRay& ray, Vec3 direction,
                       const Vec3* spread = nullptr) noexcept {
   Rgb sum;
@@ -68,7 +68,7 @@ struct TowardsLight {
   std::optional<LightSample> sample{};  ///< empty: nothing arrives
 };
 
-/// One light, one point of it. `index`: of the sample in its sequences.
+/// Draws a light and a point on it. `index`: index of the sample in its sequences.
 inline TowardsLight drawLight(PathContext& c, const Receiver& r, std::uint32_t vertex,
                               std::uint32_t index) noexcept {
   const std::uint32_t dim = dimension::vertex(vertex);
@@ -83,8 +83,8 @@ inline TowardsLight drawLight(PathContext& c, const Receiver& r, std::uint32_t v
   return {light, u, choice->chance, light->sample(r, u)};
 }
 
-/// Reflected radiance of that point, weighted as one of `samples` against `scattered` rays that
-/// scattering draws.
+/// Reflected radiance of that point, with the weight of one of `samples` light samples against
+/// `scattered` scattered rays.
 inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x,
                           const TowardsLight& towards, Real samples, Real scattered) noexcept {
   if (!towards.sample) return {};

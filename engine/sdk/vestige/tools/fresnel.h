@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a smooth facet does: how much it reflects, and where reflected and refracted directions go,
-// each with its derivative. For whole surfaces (glass, phong) and for microfacets alike.
+// Fresnel reflectance and the reflected and refracted directions of a smooth facet, with their
+// derivatives. For whole surfaces (glass, phong) and for microfacets.
 //
 // Throughout: `prev` and the results are unit vectors that leave the facet; `normal` is a unit
 // vector on prev's side; eta = n_prev / n_next, the quotient of the refractive indices;
@@ -19,8 +19,8 @@ struct Fresnel {
   Real value, slope;
 };
 
-/// Near total reflection the refracted direction moves without bound; cosines below this one are
-/// taken as this one, in derivatives only.
+/// Near total reflection the derivative of the refracted direction has no bound; derivatives clamp
+/// the cosine to this value.
 inline constexpr Real kMinRefractedCosine = Real(1e-4);
 
 /// Cosine on the far side; negative where reflection is total.
@@ -30,13 +30,14 @@ inline Real refractedCosine(Real c, Real eta) noexcept {
   return k >= 0 ? std::sqrt(k) : Real(-1);
 }
 
-/// eta c - t for the refracted cosine t: the refracted direction is this much of the normal, less
-/// eta prev. In the form that keeps its digits near eta = 1.
+/// eta c - t for the refracted cosine t, in a form that keeps its digits near eta = 1. The
+/// refracted direction is this times the normal, minus eta prev.
 inline Real refractedShift(Real c, Real t, Real eta) noexcept {
   return (eta - 1) * (eta + 1) / std::max(eta * c + t, Real(1e-30));
 }
 
-/// Between two dielectrics, by both cosines: t = refractedCosine(c, eta) >= 0 [BW99 1.5.2].
+/// Reflectance between two dielectrics, by both cosines: t = refractedCosine(c, eta) >= 0 [BW99
+/// 1.5.2].
 inline Fresnel fresnelReflected(Real c, Real t, Real eta) noexcept {
   const Real s = std::max(eta * c + t, Real(1e-20)), p = std::max(c + eta * t, Real(1e-20));
   const Real rs = (eta * c - t) / s, rp = (c - eta * t) / p;
@@ -45,20 +46,20 @@ inline Fresnel fresnelReflected(Real c, Real t, Real eta) noexcept {
   return {std::min(Real(0.5) * (rs * rs + rp * rp), Real(1)), rs * q / (s * s) + rp * q / (p * p)};
 }
 
-/// The rest, 1 - F, in a form that keeps its digits near total reflection.
+/// Transmittance 1 - F, in a form that keeps its digits near total reflection.
 inline Fresnel fresnelTransmitted(Real c, Real t, Real eta) noexcept {
   const Real s = std::max(eta * c + t, Real(1e-20)), p = std::max(c + eta * t, Real(1e-20));
   const Real value = 2 * eta * (c / s * (t / s) + c / p * (t / p));
   return {std::min(value, Real(1)), -fresnelReflected(c, t, eta).slope};
 }
 
-/// F by the one cosine; 1 where reflection is total.
+/// F by the incident cosine; 1 where reflection is total.
 inline Fresnel fresnelDielectric(Real c, Real eta) noexcept {
   const Real t = refractedCosine(c, eta);
   return t < 0 ? Fresnel{1, 0} : fresnelReflected(c, t, eta);
 }
 
-/// From vacuum onto a metal of refractive index n + i k, both >= 0 [BW99 14.2].
+/// Reflectance of a metal in vacuum with refractive index n + i k, both >= 0 [BW99 14.2].
 inline Fresnel fresnelConductor(Real c, Real n, Real k) noexcept {
   const Real c2 = c * c, s2 = 1 - c2;
   // a + i b is the far side's normal wave number: (a + i b)^2 = (n + i k)^2 - s2; m = a^2 + b^2.
@@ -82,27 +83,27 @@ inline Fresnel fresnelConductor(Real c, Real n, Real k) noexcept {
   return {std::clamp(value, Real(0), Real(1)), slope};
 }
 
-/// f0 at normal incidence, 1 at grazing [Sch94 Eq. 24].
+/// Schlick's reflectance: f0 at normal incidence, 1 at grazing [Sch94 Eq. 24].
 inline Fresnel fresnelSchlick(Real c, Real f0) noexcept {
   const Real x = 1 - std::min(c, Real(1)), x2 = x * x;
   return {f0 + (1 - f0) * x2 * x2 * x, -5 * (1 - f0) * x2 * x2};
 }
 
-/// A reflected or refracted direction, mu normal - eta prev, and how it moves with normal and prev:
-/// mu is a function of prev . normal alone.
+/// A reflected or refracted direction, mu normal - eta prev, with its derivatives by normal and
+/// prev: mu is a function of prev . normal alone.
 struct Deflection {
   Vec3 direction;
   Vec3 prev, normal;
-  Real mu, slope, eta;  ///< slope: of mu by that cosine
+  Real mu, slope, eta;  ///< slope: d(mu) / d(prev . normal)
 
-  /// For tangents of those two unit vectors, four at once.
+  /// Derivatives for four tangents of both unit vectors at once.
   Four3 moved(const Four3& dPrev, const Four3& dNormal) const noexcept {
     const Four c = slope * (dot(normal, dPrev) + dot(prev, dNormal));
     return {c * normal.x + mu * dNormal.x - eta * dPrev.x,
             c * normal.y + mu * dNormal.y - eta * dPrev.y,
             c * normal.z + mu * dNormal.z - eta * dPrev.z};
   }
-  /// At a fixed normal.
+  /// Derivative by prev at a fixed normal.
   Mat3 dPrev() const noexcept { return slope * outer(normal, normal) - eta * identity(); }
 };
 

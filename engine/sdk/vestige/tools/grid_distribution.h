@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A density over the unit square that is constant in each cell of a grid: rows by their sum, then a
-// cell within the row.
+// A density over the unit square that is constant in each cell of a grid: draws a row by its sum,
+// then a cell within the row.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,10 @@ namespace vestige {
 
 class GridDistribution {
  public:
-  /// Where a point was drawn, and the densities of its two coordinates: `p.y` of its own, `p.x`
-  /// given the row. Their product is the density per unit of the square; d(p.x)/d(u.x) is
-  /// 1/density.x, d(p.y)/d(u.y) is 1/density.y, and inside a cell nothing else moves.
+  /// A drawn point and the densities of its coordinates: the marginal density of p.y, and that of
+  /// p.x given the row. Their product is the density per unit of the square; d(p.x)/d(u.x) is
+  /// 1/density.x and d(p.y)/d(u.y) is 1/density.y; the other two derivatives are zero inside a
+  /// cell.
   struct Sample {
     Vec2 p, density;
   };
@@ -32,12 +33,12 @@ class GridDistribution {
     total_ = accumulate(sums.data(), rows, marginal_.data());
   }
 
-  /// Nothing to draw: every weight was 0.
+  /// Whether every weight is 0: nothing can be drawn.
   bool isEmpty() const noexcept { return !(total_ > 0); }
   /// Sum of all weights.
   double total() const noexcept { return total_; }
 
-  /// Only where !isEmpty().
+  /// Requires !isEmpty().
   Sample sample(Vec2 u) const noexcept {
     const Place y = draw(marginal_.data(), rows_, u.y);
     const Place x = draw(row(y.cell), columns_, u.x);
@@ -51,8 +52,8 @@ class GridDistribution {
   }
 
  private:
-  // Cumulative sums as multiples of 2^-32: half the memory of double, evenly fine (a float has no
-  // room left near 1), and sample() and density() read the same whole numbers.
+  // Cumulative sums as multiples of 2^-32: half the memory of double, with uniform resolution (a
+  // float is coarse near 1). sample() and density() use the same integers.
   using Fixed = std::uint32_t;
   static constexpr double kOne = 4294967295.0;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GGX microfacet surface: density of normals, Smith's masking, visible normals drawn without a
-// pole, and the gradients that path differentials ask for. Local frame, toPrev.z > 0.
+// The GGX microfacet surface: density of normals, Smith's masking, sampling of visible normals
+// without a pole, and the gradients for path differentials. Local frame, toPrev.z > 0.
 //
 //     f(prev, next) = F(prev . h) D(h) shade(prev) shade(next) / 4                    reflection
 //                   = (1 - F) D shade(prev) shade(next) |prev . h| |next . h| / m^2  transmission
@@ -18,12 +18,12 @@
 
 namespace vestige {
 
-/// Smoother than this is computed as this: a float cannot tell the directions inside the lobe
-/// apart.
+/// Smaller widths are clamped to this one: a float cannot resolve directions inside a narrower
+/// lobe.
 inline constexpr Real kMinAlpha = Real(1e-4);
 
-/// Where both indices are nearly the same, the direction refracted by a facet does not depend on
-/// its normal: a relative index this close to 1 is moved away from it.
+/// If both indices are nearly equal, the refracted direction does not depend on the facet's normal.
+/// So a relative index this close to 1 is moved away from 1.
 inline constexpr Real kMinIndexStep = Real(1e-3);
 
 /// n_prev / n_next for facets.
@@ -38,16 +38,16 @@ inline Real roughEta(const ScatterPoint& p) noexcept {
 inline Vec3 across(Vec3 n, Vec3 a) noexcept { return cross(cross(n, a), n); }
 inline Four3 across(Vec3 n, const Four3& a) noexcept { return cross(cross(n, a), n); }
 
-/// A drawn normal and how it moves.
+/// A drawn normal with its derivatives.
 struct VisibleNormal {
   Vec3 h;       ///< unit, z >= 0, prev . h >= 0 but for rounding
   Frame prev;   ///< around toPrev
-  Four3 moved;  ///< dh by u.x, by u.y, by turning toPrev along s and t of that frame
+  Four3 moved;  ///< derivatives of h by u.x, by u.y, by rotating toPrev along s and t of `prev`
 };
 
 class Ggx {
  public:
-  /// Widths along x and y; outside of [kMinAlpha, 1] they are taken as its ends.
+  /// Widths along x and y, clamped to [kMinAlpha, 1].
   Ggx(Real alphaX, Real alphaY) noexcept
       : x_(std::clamp(alphaX, kMinAlpha, Real(1))), y_(std::clamp(alphaY, kMinAlpha, Real(1))) {}
   explicit Ggx(Real alpha) noexcept : Ggx(alpha, alpha) {}
@@ -148,8 +148,8 @@ inline Facet facetBetween(Vec3 prev, Vec3 next, Real eta) noexcept {
   return {h, p, std::abs(n), size, eta, sign};
 }
 
-/// The facets of a drawn normal, which are known exactly where facetBetween() has to round. For
-/// refraction: only where reflection is not total.
+/// The facets of a drawn normal, exact where facetBetween() rounds. Refraction requires that
+/// reflection is not total.
 inline Facet reflectingFacet(Vec3 prev, Vec3 h) noexcept {
   const Real c = dot(prev, h);
   return {h, c, c, 2 * c, 1, 1};
@@ -159,7 +159,7 @@ inline Facet refractingFacet(Vec3 prev, Vec3 h, Real eta) noexcept {
   return {h, c, t, std::abs(refractedShift(c, t, eta)), eta, eta > 1 ? Real(1) : Real(-1)};
 }
 
-/// f / (F or 1 - F), 1/sr: the part of the BRDF that is geometry.
+/// f / (F or 1 - F), 1/sr: the geometric factor of the BRDF.
 inline Real facetValue(const Ggx& ggx, const Facet& f, Vec3 prev, Vec3 next) noexcept {
   const Real common = ggx.density(f.h) * ggx.shade(prev) * ggx.shade(next);
   return next.z > 0 ? common / 4 : common * (f.cosPrev / f.length) * (f.cosNext / f.length);
@@ -190,7 +190,7 @@ inline FacetGradient facetLogGradient(const Ggx& ggx, const Facet& f, Vec3 prev,
           k * prev + d + ggx.logShadeGradient(next)};
 }
 
-/// The derivatives of a direction that left a drawn normal.
+/// Derivatives of a direction reflected or refracted at a drawn normal.
 inline ScatterJacobian leavingDerivatives(const Deflection& t, const VisibleNormal& n) noexcept {
   return scatterJacobian(n.prev, t.moved(columns({}, {}, n.prev.s, n.prev.t), n.moved));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reports on a path under way: footprint AOVs, and the record that `inspect` prints and the window
-// draws. Costs nothing where neither is wanted.
+// draws. Costs nothing if neither is requested.
 #pragma once
 #include <vestige/footprint.h>
 #include <vestige/tools/direct_light.h>
@@ -113,7 +113,7 @@ class PathReport {
   explicit PathReport(PathContext& c) noexcept
       : scene_(&c.scene), aovs_(c.wantsFootprint ? c.aovs : nullptr), record_(c.record) {}
 
-  /// The path reached a surface and scattered. Call before the footprint follows the scattering.
+  /// Records a scattering at a surface. Call it before PathFootprint::scatter().
   template <int Lanes>
   void scatter(const Surface& s, Vec3 toPrev, Rgb throughput, const Scatter& drawn,
                const PathFootprint<Lanes>* f) noexcept {
@@ -132,24 +132,24 @@ class PathReport {
   }
   /// Whether an AOV needs the footprint behind the scattering.
   bool isWaiting() const noexcept { return isWaiting_; }
-  /// The footprint has followed the scattering.
+  /// Call it after PathFootprint::scatter().
   template <int Lanes>
   void left(const PathFootprint<Lanes>* f) noexcept {
     if (!isWaiting_) return;
     aovs_->gradient = f->steepest();
-    // Only the first scattering is wanted.
+    // The AOV holds the first scattering only.
     aovs_ = nullptr;
     isWaiting_ = false;
   }
 
-  /// The path reached a surface and passed through, or ended there.
+  /// Records that the path passed through a surface, or ended there.
   template <int Lanes>
   void end(const Surface& s, Vec3 toPrev, Rgb throughput, const char* event,
            const PathFootprint<Lanes>* f) noexcept {
     if (record_) record_->add(vertex(s, toPrev, throughput, event, f, std::nullopt));
   }
 
-  /// The path left the scene ("escape"), or roulette ended it on its way ("roulette").
+  /// Records that the path left the scene ("escape"), or was ended by roulette ("roulette").
   void gone(const char* event, Vec3 direction, Rgb throughput) noexcept {
     if (!record_) return;
     PathVertex v;

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // Procedural patterns averaged over a footprint, in closed form along one axis.
 //
-// A footprint is the parallelogram p + u a + v b with u, v uniform in [-1/2, 1/2]. A coordinate
-// that is linear in p sees it as two boxes of widths |da| and |db|, one after the other: a
-// trapezium. A wave whose first two integrals are known is averaged over that exactly. What is a
-// product of waves along several axes is exact where those are independent over the footprint, and
-// made nearly so by cutting the footprint into pieces.
+// A footprint is the parallelogram p + u a + v b with u, v uniform in [-1/2, 1/2]. Along a
+// coordinate that is linear in p it is the convolution of two boxes of widths |da| and |db|: a
+// trapezium. A wave with known first and second integral has an exact average over it. A product of
+// waves along several axes is exact if the axes are independent over the footprint; cutting the
+// footprint into pieces makes them nearly independent.
 #pragma once
 #include <vestige/pigment.h>
 
 namespace vestige {
 
-/// Full widths of the two boxes along one coordinate, in periods of the wave; sign without meaning.
-/// Double: second differences of integrals divide by the product of both.
+/// Full widths of the two boxes along one coordinate, in periods of the wave; their signs are
+/// irrelevant. Double: second differences of integrals divide by the product of both.
 struct Widths {
   double a = 0, b = 0;
 
   bool isPoint() const noexcept { return a == 0 && b == 0; }
-  /// More than any wave survives, or not a number.
+  /// Whether the widths exceed a million periods, or are NaN: the average is the wave's mean.
   bool isHuge() const noexcept { return !(std::abs(a) + std::abs(b) < 1e6); }
-  /// The same, after a blur of this variance: half of it to either box, whose own is w^2 / 12.
+  /// The widths after a blur of this variance. Each box, of variance w^2 / 12, gets half of it.
   Widths blurred(double variance) const noexcept {
     if (variance == 0) return *this;
     return {std::sqrt(a * a + 6 * variance), std::sqrt(b * b + 6 * variance)};
   }
 };
 
-/// The part after the point, in [0, 1]; 0 of what has none.
+/// The fractional part, in [0, 1]; 0 for infinity and NaN.
 inline double fraction(double x) noexcept {
   const double part = x - std::floor(x);
   return part >= 0 ? part : 0;
@@ -52,7 +52,7 @@ struct PulseWave {
   }
 };
 
-/// From 0 up to 1, and down at once.
+/// Sawtooth: from 0 up to 1, then down at once.
 struct SawWave {
   double mean() const noexcept { return 0.5; }
   double value(double t) const noexcept { return fraction(t); }
@@ -66,7 +66,7 @@ struct SawWave {
   }
 };
 
-/// From 0 to 1 at t = 1/2, and back as slowly.
+/// Triangle: from 0 to 1 at t = 1/2 and back.
 struct TriangleWave {
   double mean() const noexcept { return 0.5; }
   double value(double t) const noexcept { return 1 - std::abs(2 * fraction(t) - 1); }
@@ -80,8 +80,8 @@ struct TriangleWave {
   }
 };
 
-/// The mean of a wave over both boxes around t, within [0, 1]. The point's value where there are no
-/// boxes, the wave's mean where they are huge.
+/// The mean of a wave over both boxes around t, within [0, 1]. The value at t if both widths are 0,
+/// the wave's mean if they are huge.
 template <class Wave>
 double filtered(const Wave& wave, double t, Widths widths) noexcept {
   if (widths.isHuge()) return wave.mean();
@@ -119,7 +119,7 @@ struct PatternFootprint {
   }
 };
 
-/// The mean over na x nb equal pieces of a patch of what `f(piece)` says.
+/// The mean of f(piece) over na x nb equal pieces of a patch.
 template <class Function>
 double overPieces(const PatternFootprint& patch, int na, int nb, const Function& f) noexcept {
   const Vec3 a = patch.a / Real(na), b = patch.b / Real(nb);
@@ -133,17 +133,18 @@ double overPieces(const PatternFootprint& patch, int na, int nb, const Function&
   return sum / (na * nb);
 }
 
-/// Into how many pieces a vector is cut so that no piece moves along two axes at once by more than
-/// about `step`: the second largest component rules, so what lies along an axis stays whole.
+/// How many pieces a vector is cut into, so that no piece changes along two axes at once by more
+/// than about `step`. The second largest component decides, so a vector along an axis stays whole.
 inline int slantPieces(Vec3 v, Real step, int most) noexcept {
   const Real x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
   const Real second = std::max(std::min(x, y), std::min(std::max(x, y), z));
   return int(std::clamp(std::ceil(second / step), Real(1), Real(most)));
 }
 
-/// A product of waves along the axes over a patch, cells of this size: `f(piece)` is exact where no
-/// vector moves along two axes at once. The shorter vector is cut into up to 3 pieces, the longer
-/// until there are 16; beyond, the correlation between axes is lost and the pattern fades early.
+/// The mean of a product of waves along the axes over a patch, with cells of this size. `f(piece)`
+/// must be exact for vectors along one axis. The shorter vector is cut into up to 3 pieces, the
+/// longer until there are 16; beyond, the correlation between axes is lost and the pattern fades
+/// early.
 template <class Function>
 double overSlant(const PatternFootprint& patch, Vec3 cell, const Function& f) noexcept {
   const auto inCells = [&](Vec3 v) { return Vec3{v.x / cell.x, v.y / cell.y, v.z / cell.z}; };

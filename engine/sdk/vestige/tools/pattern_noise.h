@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gradient noise [Per02: Perlin, "Improving Noise", SIGGRAPH 2002], its octaves averaged over a
-// footprint, and what turbulence does to one.
+// footprint, and turbulence of a footprint.
 #pragma once
 #include <cstdint>
 
@@ -33,11 +33,11 @@ inline Real latticeFade(Real t) noexcept { return t * t * t * (t * (t * 6 - 15) 
 
 }  // namespace detail
 
-/// Gradient noise: mean 0, within [-1.04, 1.04]. Its lattice is turned against the axes: on a plane
-/// of lattice points, which floors and walls otherwise are, it is flatter than in space, and no
-/// mean of |noise| would be true there.
+/// Gradient noise: mean 0, within [-1.04, 1.04]. Its lattice is rotated against the axes, because
+/// noise is flatter on planes of lattice points, which floors and walls would otherwise be, and the
+/// mean of |noise| would be wrong there.
 inline Real gradientNoise(Vec3 at, std::uint32_t seed) noexcept {
-  // Beyond this a float has no fraction, and an int soon no room.
+  // Beyond this a float has no fraction, and an int would soon overflow.
   if (!(maxAbsComponent(at) < Real(1e9))) return 0;
   const Vec3 p{dot(Vec3{Real(0.670649316), Real(-0.561275730), Real(0.484973246)}, at),
                dot(Vec3{Real(0.692047325), Real(0.708791032), Real(-0.136695915)}, at),
@@ -59,7 +59,7 @@ inline Real gradientNoise(Vec3 at, std::uint32_t seed) noexcept {
   return mix(face(0), face(1), w);
 }
 
-/// Of gradient noise n over all space, measured over 2 10^7 places.
+/// Moments of gradient noise n over all space, measured at 2 10^7 points.
 inline constexpr Real kNoiseVariance = Real(0.0729), kNoiseMeanAbs = Real(0.2202);
 
 /// Seeds of the octaves: an odd constant apart, so that no two lattices are alike.
@@ -67,16 +67,16 @@ inline std::uint32_t octaveSeed(std::uint32_t seed, int octave) noexcept {
   return seed + std::uint32_t(octave) * 0x68e31da4u;
 }
 
-/// What a mean over a patch keeps of noise at its centre: the correlation of gradient noise over a
-/// distance r is about exp(-2.3 r^2) (`finer` times that in the exponent for shapes like |n|), of
-/// which the mean over a box of width l is about exp(-2.3 l^2 / 12). The patch is in lattice units.
-/// 0 where next to nothing is left: whatever is smaller is not worth a look.
+/// The share of the noise at a patch's centre that remains in the mean over the patch: the
+/// correlation of gradient noise over a distance r is about exp(-2.3 r^2) (`finer` times that in
+/// the exponent for shapes like |n|), of which the mean over a box of width l is about exp(-2.3 l^2
+/// / 12). The patch is in lattice units. 0 where the result is negligible.
 inline Real noiseKept(const PatternFootprint& patch, Real finer = 1) noexcept {
   const Real squares = lengthSquared(patch.a) + lengthSquared(patch.b);
   return squares * finer < 25 ? std::exp(Real(-2.3 / 12) * finer * squares) : Real(0);
 }
 
-/// Into how many pieces a and b are cut for pieces about as long as `step`, `most` in all.
+/// Numbers of pieces of a and b, for pieces about as long as `step`, at most `most` in all.
 struct Pieces {
   int a = 1, b = 1;
 };
@@ -89,10 +89,10 @@ inline Pieces grainPieces(const PatternFootprint& patch, Real step, int most) no
   return n;
 }
 
-/// One octave `shape(noise)` averaged over a patch in lattice units, less its mean: that of up to
-/// six pieces' centres. Pieces are not faded by their own size: that would be nearer to the truth
-/// at one place, but wrong by as much at all places of a pixel, and stay so as samples are added.
-/// Only what is so large that six points say less than the mean fades to that.
+/// One octave `shape(noise)` minus its mean, averaged over a patch in lattice units by up to six
+/// pieces' centres. Pieces are not faded by their own size: fading is closer at a single point, but
+/// has the same bias at all points of a pixel, which more samples do not reduce. Only patches too
+/// large for six points fade to the mean.
 template <class Shape>
 Real octaveOver(const PatternFootprint& patch, std::uint32_t seed, Real mean,
                 const Shape& shape) noexcept {
@@ -109,19 +109,19 @@ Real octaveOver(const PatternFootprint& patch, std::uint32_t seed, Real mean,
   return kept * Real(rest);
 }
 
-/// A patch at `scale` times the size.
+/// A patch scaled by `scale`.
 inline PatternFootprint scaled(const PatternFootprint& p, Real scale) noexcept {
   return {scale * p.centre, scale * p.a, scale * p.b};
 }
 
-/// How strongly and how finely points are displaced: POV-Ray's words and its defaults.
+/// Parameters of turbulence, with POV-Ray's names and defaults.
 struct TurbulenceSettings {
   int octaves = 6;
   Real lambda = 2, omega = Real(0.5);
   std::uint32_t seed = 0;
 };
 
-/// sum omega^i noise(lambda^i p) over a patch: its smooth part, and how much the rest scatters.
+/// sum omega^i noise(lambda^i p) over a patch: its smooth part, and the variance of the rest.
 struct Turbulence {
   Real value = 0;               ///< at the centre
   Real alongA = 0, alongB = 0;  ///< change along the whole of a and of b
@@ -150,7 +150,8 @@ inline Turbulence turbulence(const PatternFootprint& patch, const TurbulenceSett
   return t;
 }
 
-/// `f(piece, turbulence)` over up to four pieces of a patch, within which turbulence bends little.
+/// The mean of f(piece, turbulence) over up to four pieces of a patch, within which turbulence is
+/// nearly linear.
 template <class Function>
 double overTurbulence(const PatternFootprint& patch, const TurbulenceSettings& s,
                       const Function& f) noexcept {

@@ -5,7 +5,8 @@
 
 namespace vestige {
 
-/// Roulette starts with this scattering; earlier ones are worth too much to be ended by chance.
+/// Roulette starts with this scattering: earlier vertices contribute too much to be ended at
+/// random.
 inline constexpr int kRouletteFrom = 4;
 /// No path survives with certainty, so that paths end even in a closed room of white walls.
 inline constexpr Real kMaxSurvival = Real(0.95);

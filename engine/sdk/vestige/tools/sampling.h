@@ -6,13 +6,13 @@
 
 namespace vestige {
 
-/// A point of the unit disk and how it moves with u.
+/// A point of the unit disk with its derivatives by u.
 struct Disk {
   Vec2 d;
   Vec2 du[2];  ///< columns: d(d)/du.x, d(d)/du.y; |cross| = pi everywhere
 };
 
-/// Shirley and Chiu's concentric map, area preserving; its derivative jumps (and the map does not)
+/// Shirley and Chiu's concentric map, area preserving. The map is continuous; its derivative jumps
 /// across the seams |2u-1| = |2v-1| [SC97].
 inline Disk concentricDisk(Vec2 u) noexcept {
   const Real a = 2 * u.x - 1, b = 2 * u.y - 1;
@@ -25,13 +25,13 @@ inline Disk concentricDisk(Vec2 u) noexcept {
   return {{b * s, b * c}, {{(kPi / 2) * c, -(kPi / 2) * s}, {2 * (s - p * c), 2 * (c + p * s)}}};
 }
 
-/// A direction and how it moves with u.
+/// A direction with its derivatives by u.
 struct Direction {
   Vec3 d;
   Mat3x2 du;  ///< per unit of random number; |du.c0 x du.c1| pdf = 1
 };
 
-/// Around +z with density z / pi.
+/// A direction around +z with density z / pi.
 inline Direction cosineHemisphere(Vec2 u) noexcept {
   const Disk k = concentricDisk(u);
   const Real z = std::max(safeSqrt(1 - dot(k.d, k.d)), Real(1e-6));  // the horizon has no tangent
@@ -39,8 +39,8 @@ inline Direction cosineHemisphere(Vec2 u) noexcept {
   return {{k.d.x, k.d.y, z}, {column(k.du[0]), column(k.du[1])}};
 }
 
-/// Around +z, uniform over the cap cos >= cosMax: density 1 / (2 pi (1 - cosMax)). The hemisphere
-/// is cosMax = 0, the sphere cosMax = -1.
+/// A direction around +z, uniform over the cap cos >= cosMax: density 1 / (2 pi (1 - cosMax)).
+/// cosMax = 0 gives the hemisphere, -1 the sphere.
 inline Direction uniformCap(Vec2 u, Real cosMax) noexcept {
   // z = 1 - h q with h = 1 - cosMax; radius^2 = 1 - z^2 = q m^2, m^2 = h (2 - h q)
   const Disk k = concentricDisk(u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where particles of lights at infinity start: on a disk that covers the scene as the light sees
-// it.
+// The disk on which particles of lights at infinity start: it covers the scene as seen along their
+// direction.
 #pragma once
 #include <vestige/tools/sampling.h>
 
@@ -12,7 +12,7 @@ struct SceneDisk {
   Vec3 centre;
   Real radius = 1;
 
-  /// Where nothing is finite, a unit sphere: lights keep a flux to be chosen by.
+  /// A unit sphere if no object is finite, so that lights keep a finite flux.
   static SceneDisk around(const Bounds& scene) noexcept {
     if (scene.isEmpty() || scene.isInfinite()) return {};
     const Real r = length(scene.size()) / 2;
@@ -20,7 +20,8 @@ struct SceneDisk {
   }
   Real area() const noexcept { return kPi * radius * radius; }
 
-  /// Uniform over the disk across unit `direction`, one radius before the centre [MATH 1.12].
+  /// A point drawn uniformly over the disk perpendicular to unit `direction`, one radius before the
+  /// centre [MATH 1.12].
   Vec3 start(Vec3 direction, Vec2 u) const noexcept {
     const Vec2 d = concentricDisk(u).d;
     const Frame f = Frame::around(direction);
@@ -33,8 +34,8 @@ struct SceneDisk {
     const auto column = [&](Vec2 d) { return radius * (d.x * f.s + d.y * f.t); };
     return {column(k.du[0]), column(k.du[1])};
   }
-  /// How a start moves when the direction turns by dDirection and takes the disk along without
-  /// spin; the turn of Frame::around about the direction only relabels u.
+  /// Derivative of a start when the direction changes by dDirection and carries the disk along
+  /// without spin; the spin of Frame::around about the direction only relabels u.
   Vec3 turned(Vec3 start, Vec3 direction, Vec3 dDirection) const noexcept {
     return cross(cross(direction, dDirection), start - centre);
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way PD01 looks pictures up [PD01 Sec. 4.1], for `footprint paper`: lookups side by side along
-// the footprint's longer axis, each round and as wide as the shorter one. Where the paper
-// interpolates between the levels of a pyramid of boxes, these are round lookups of the texture's
-// own filter, which are as wide and smoother.
+// The image filter of PD01 [PD01 Sec. 4.1], for `footprint paper`: lookups side by side along the
+// footprint's longer axis, each round and as wide as the shorter one. The paper interpolates
+// between levels of a box pyramid; here the texture's own filter makes round lookups of the same
+// width.
 //
 // [PD01] Suykens, Willems. Path differentials and applications. EGWR 2001.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace vestige {
 
-/// At most this many lookups; a longer footprint gets wider ones.
+/// Largest number of lookups; a longer footprint gets wider ones.
 inline constexpr int kMostBoxLookups = 32;
 
 inline Rgba lookupAlongMajor(const Texture& texture, Vec2 uv, const Vec2 dUv[2]) noexcept {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cameras share: where they stand, how they are turned, and the flat film of those with a
-// perspective.
+// Location and axes of cameras, and the flat film of perspective cameras.
 //
 // The world is left-handed: with y up and the view along +z, +x is on the right of the picture.
 #pragma once
@@ -12,10 +11,10 @@
 
 namespace vestige {
 
-/// The first rows of every camera's schema; its own begin at kViewRows.
+/// The first rows of every camera's schema; a camera's own rows begin at kViewRows.
 enum ViewRow { kLocation, kLookAt, kSky, kViewRows };
 
-/// These rows, and then a camera's own.
+/// These rows, followed by a camera's own.
 inline std::vector<Parameter> viewRows(const std::vector<Parameter>& own = {}) {
   std::vector<Parameter> rows = {
       vec3("location", {0, 0, 0}).in("scene units").doc("where the camera stands"),
@@ -25,16 +24,15 @@ inline std::vector<Parameter> viewRows(const std::vector<Parameter>& own = {}) {
   return rows;
 }
 
-/// A camera's place and axes in world space. Axes are unit and orthogonal to each other, also where
-/// a transform shears; a transform that mirrors turns `right` over, so that the picture is
-/// mirrored.
+/// A camera's place and axes in world space. Axes are unit and orthogonal, even under a shearing
+/// transform; a mirroring transform flips `right`, so that the picture is mirrored.
 struct ViewFrame {
   Vec3 location;
   Vec3 right, up, forward;
   Real across, along;  ///< world length of a unit of length sideways and along the view
 };
 
-/// The axes before the block's transform. Throws PluginError where the rows leave them open.
+/// The axes before the block's transform. Throws PluginError if the rows do not determine them.
 inline ViewFrame ownViewFrame(const Values& values) {
   const Vec3 location = values.vec3(kLocation), lookAt = values.vec3(kLookAt);
   const Vec3 sky = values.vec3(kSky), forward = normalize(lookAt - location);
@@ -82,7 +80,7 @@ struct PerspectiveFilm {
     return {std::tan(radians(angle) / 2)};
   }
 
-  /// From the eye to a film point; its part along the view is 1.
+  /// Vector from the eye to a film point; its component along the view is 1.
   Vec3 toPoint(const ViewFrame& v, Vec2 film, Real aspect) const noexcept {
     const Vec2 p = {halfWidth * (2 * film.x - 1), halfWidth / aspect * (1 - 2 * film.y)};
     return v.forward + p.x * v.right + p.y * v.up;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as a scene writes them, for messages of plugins.
+// Numbers in the notation of scenes, for messages of plugins.
 #pragma once
 #include <vestige/math.h>
 
