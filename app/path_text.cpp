@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <vestige/tools/path_report.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/terminal.h"
@@ -89,14 +90,6 @@ std::string footprintText(const PathVertex& v) {
   return t;
 }
 
-/// What of a radiosity solution was seen at vertex k, counted from 0.
-std::string seenText(const RecordedPath& path, std::size_t k) {
-  std::string t;
-  for (const RecordedPath::Seen& s : path.seen)
-    if (s.vertex == k) t += fmt::format("    element     {}\n", elementText(s.element));
-  return t;
-}
-
 std::string vertexText(std::size_t k, const PathVertex& v, const std::vector<std::string>& names,
                        const LoadedScene& loaded) {
   if (isGone(v))
@@ -156,19 +149,33 @@ Json vertexJson(const PathVertex& v, const std::vector<std::string>& names,
   return j;
 }
 
-Json json(const SeenElement& e) {
-  return {{"level", e.level},
-          {"id", e.id},
-          {"area", e.area},
-          {"flux", {e.flux.r, e.flux.g, e.flux.b}},
-          {"particles", e.hits}};
+Json json(const PathNote& note) {
+  if (note.count == 1) return note.values[0];
+  return std::vector<double>(note.values, note.values + note.count);
+}
+
+/// A whole number with all its digits: it may be an id.
+std::string numberText(double x) {
+  return x == std::floor(x) && std::abs(x) < 1e15 ? fmt::format("{:.0f}", x)
+                                                  : fmt::format("{:.4g}", x);
 }
 
 }  // namespace
 
-std::string elementText(const SeenElement& e) {
-  return fmt::format("flux {} W on an area of {}; {}", text(e.flux), text(e.area),
-                     count(static_cast<long long>(e.hits), "particle"));
+std::string noteText(const PathNote& note) {
+  std::vector<std::string> numbers;
+  for (int i = 0; i < note.count; ++i) numbers.push_back(numberText(note.values[i]));
+  std::string value = fmt::format("{}", fmt::join(numbers, ", "));
+  if (note.count > 1) value = "<" + value + ">";
+  const std::string unit = note.unit;
+  return fmt::format("{} {}{}{}", note.name, value, unit.empty() ? "" : " ", unit);
+}
+
+std::string notesText(const RecordedPath& path, std::size_t vertex) {
+  std::vector<std::string> texts;
+  for (const RecordedPath::Note& n : path.notes)
+    if (n.vertex == vertex) texts.push_back(noteText(n.note));
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 std::vector<std::vector<std::string>> numberNames(const std::vector<PathVertex>& vertices) {
@@ -196,9 +203,11 @@ std::vector<std::vector<std::string>> numberNames(const std::vector<PathVertex>&
 std::string pathText(const RecordedPath& path, const LoadedScene& loaded) {
   const auto names = numberNames(path.vertices);
   std::string t;
-  for (std::size_t k = 0; k < path.vertices.size(); ++k)
-    t += fmt::format("\n{}{}", vertexText(k + 1, path.vertices[k], names[k], loaded),
-                     seenText(path, k));
+  for (std::size_t k = 0; k < path.vertices.size(); ++k) {
+    t += "\n" + vertexText(k + 1, path.vertices[k], names[k], loaded);
+    if (const std::string notes = notesText(path, k); !notes.empty())
+      t += fmt::format("    notes       {}\n", notes);
+  }
   return t;
 }
 
@@ -207,8 +216,8 @@ std::string pathJson(const RecordedPath& path, const LoadedScene& loaded, Rgb ra
   Json vertices = Json::array();
   for (std::size_t k = 0; k < path.vertices.size(); ++k)
     vertices.push_back(vertexJson(path.vertices[k], names[k], loaded));
-  for (const RecordedPath::Seen& s : path.seen)
-    if (s.vertex < vertices.size()) vertices[s.vertex]["element"] = json(s.element);
+  for (const RecordedPath::Note& n : path.notes)
+    if (n.vertex < vertices.size()) vertices[n.vertex]["notes"][n.note.name] = json(n.note);
   const Json all = {{"radiance", {radiance.r, radiance.g, radiance.b}}, {"vertices", vertices}};
   return all.dump(2);
 }

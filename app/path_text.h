@@ -8,21 +8,23 @@
 
 namespace vestige::app {
 
-/// Keeps what an integrator tells about one path.
+/// Keeps everything that an integrator reports about one path.
 class RecordedPath final : public PathRecord {
  public:
-  struct Seen {
-    std::size_t vertex;  ///< at which
-    SeenElement element;
+  struct Note {
+    std::size_t vertex;  ///< index into `vertices`
+    PathNote note;
   };
   void add(const PathVertex& vertex) override { vertices.push_back(vertex); }
-  void saw(const SeenElement& element) override { seen.push_back({vertices.size(), element}); }
+  void note(const PathNote& note) override { notes.push_back({vertices.size(), note}); }
   std::vector<PathVertex> vertices;
-  std::vector<Seen> seen;
+  std::vector<Note> notes;
 };
 
-/// "flux <0.1, 0.1, 0.1> W on 0.02, 134 particles".
-std::string elementText(const SeenElement& element);
+/// "element.flux <0.1, 0.1, 0.1> W".
+std::string noteText(const PathNote& note);
+/// The notes of a vertex, with commas between them; "" if there are none.
+std::string notesText(const RecordedPath& path, std::size_t vertex);
 
 /// Which random number a differential is taken by, on arrival at each vertex: "film x", "vertex 2
 /// v", ... A path that was reduced on the way has "mixed 1" and so on.

@@ -98,7 +98,7 @@ void warnAboutCounters(const Counters& c) {
 }
 
 void warnAboutAovs(const Film& film) {
-  for (std::size_t i = 0; i < film.layers().size(); ++i)
+  for (int i = 0; i < film.layers().size(); ++i)
     if (const std::uint64_t cut = film.cuts()[i]; cut > 0)
       warn(fmt::format("{} of AOV '{}' {} not finite or beyond {:.3g} and {} cut",
                        count((long long)cut, "sample"), film.layers()[i].name,
@@ -213,7 +213,8 @@ int runRender(const RenderRequest& r) {
     return kSceneWrong;
   }
 
-  Film film = makeFilm(*loaded.scene, r.width, r.height, r.cropGiven ? r.crop : nullptr, r.aovs);
+  Film film = makeFilm(*loaded.scene, r.width, r.height, r.cropGiven ? r.crop : nullptr,
+                       namedAovs(r.aovs, loaded.scene->integrator().aovs()));
   std::optional<CheckpointFile> checkpoint;
   if (!r.checkpoint.empty()) {
     checkIntegrator(r, *loaded.scene);

@@ -14,31 +14,14 @@ namespace {
 constexpr int kMaxSide = 65536;       // pixels
 constexpr double kLeastNoise = 1e-4;  // already more than a million samples for most pixels
 
-std::vector<std::string> aovNames() {
-  std::vector<std::string> names;
-  for (int i = 0; i < kAovs; ++i) names.emplace_back(name(Aov(i)));
-  return names;
-}
-
-std::vector<Aov> parseAovs(const std::string& text) {
-  std::vector<Aov> wanted;
-  std::vector<std::string> known = aovNames();
+[[noreturn]] void refuseAov(const std::string& word, std::vector<std::string> known) {
   known.insert(known.begin(), "all");
-  for (const std::string& word : CLI::detail::split(text, ',')) {
-    const auto found = std::find(known.begin(), known.end(), word);
-    if (found == known.end()) {
-      const std::string near = nearestWord(word, known);
-      throw Failure(kCommandLineWrong,
-                    fmt::format("--aov knows no '{}'; {}", word,
-                                near.empty() ? fmt::format("it knows {}", fmt::join(known, ", "))
-                                             : fmt::format("did you mean '{}'?", near)));
-    }
-    for (int i = 0; i < kAovs; ++i)
-      if (const Aov aov = Aov(i); (word == "all" || word == name(aov)) &&
-                                  std::find(wanted.begin(), wanted.end(), aov) == wanted.end())
-        wanted.push_back(aov);
-  }
-  return wanted;
+  const std::string near = nearestWord(word, known);
+  throw Failure(kCommandLineWrong,
+                fmt::format("--aov knows no '{}'; {}", word,
+                            near.empty() ? fmt::format("with this integrator it knows {}",
+                                                       fmt::join(known, ", "))
+                                         : fmt::format("did you mean '{}'?", near)));
 }
 
 void addQuality(CLI::App& command, RenderRequest& r) {
@@ -130,10 +113,12 @@ void addPicture(CLI::App& command, RenderRequest& r) {
       ->take_last()
       ->type_name("X0,Y0,X1,Y1")
       ->group(group);
-  const auto aov = [&](const std::string& text) { r.aovs = parseAovs(text); };
+  const auto aov = [&](const std::string& text) { r.aovs = CLI::detail::split(text, ','); };
   command
       .add_option_function<std::string>(
-          "--aov", aov, fmt::format("further channels: {} or all", fmt::join(aovNames(), ",")))
+          "--aov", aov,
+          fmt::format("further channels: {}, those of the integrator, or all",
+                      fmt::join(aovNames(), ",")))
       ->take_last()
       ->type_name("LIST")
       ->group(group);
@@ -194,6 +179,24 @@ void addReports(CLI::App& command, RenderRequest& r) {
 }
 
 }  // namespace
+
+std::vector<std::string> namedAovs(const std::vector<std::string>& words,
+                                   std::span<const AovSlot> own) {
+  const std::vector<std::string> names = aovNames(own);
+  std::vector<std::string> wanted;
+  const auto add = [&](const std::string& name) {
+    if (std::find(wanted.begin(), wanted.end(), name) == wanted.end()) wanted.push_back(name);
+  };
+  for (const std::string& word : words) {
+    if (word == "all") {
+      for (const std::string& name : names) add(name);
+      continue;
+    }
+    if (std::find(names.begin(), names.end(), word) == names.end()) refuseAov(word, names);
+    add(word);
+  }
+  return wanted;
+}
 
 void addRenderOptions(CLI::App& command, RenderRequest& request) {
   addSceneOptions(command, request.input);

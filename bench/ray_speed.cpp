@@ -16,6 +16,7 @@
 
 #include "bench/scene.h"
 #include "engine/render/session.h"
+#include "engine/render/start_path.h"
 #include "engine/scene/scene_impl.h"
 #include "engine/trace/embree.h"
 
@@ -66,23 +67,19 @@ std::vector<Query> raysOf(Scene& scene, int samples) {
   const Recorder recorder(view.tracer, queries);
   const SceneView recorded{recorder, view.materials, view.lightSet, view.patchSet, view.middle};
   const int width = scene.film().width, height = scene.film().height;
+  const PathSource source{.scene = recorded,
+                          .camera = scene.camera(),
+                          .filter = PixelFilterSampler(scene.film().filter),
+                          .width = width,
+                          .height = height,
+                          .seed = kSeed,
+                          .declaredSamples = std::uint64_t(samples),
+                          .wantsJacobian = true};
   Counters counters;
   const auto sample = [&](int x, int y, int i) {
-    const Sampler sampler(std::uint32_t(x), std::uint32_t(y), std::uint32_t(i), kSeed);
-    const Vec2 u = sampler.pair(dimension::kFilm);
-    const Real w = Real(width), h = Real(height);
-    const CameraNumbers numbers{
-        {(Real(x) + u.x) / w, (Real(y) + u.y) / h}, sampler.pair(dimension::kLens), w / h};
-    const auto start = scene.camera().sample(numbers);
-    if (!start) return;
-    PathContext context{.scene = recorded,
-                        .sampler = sampler,
-                        .ray = {start->origin, start->direction, 0, kInfinity, 0, RayKind::camera},
-                        .jacobian = scene.camera().sampleDerivatives(numbers),
-                        .cameraVariables = scene.camera().variables(),
-                        .declaredSamples = std::uint64_t(samples),
-                        .counters = counters};
-    scene.integrator().estimate(context);
+    std::optional<StartedPath> path =
+        startPath(source, x, y, std::uint32_t(i), {.counters = counters});
+    if (path) scene.integrator().estimate(path->context);
   };
   for (int ty = 0; ty < height; ty += kTile)
     for (int tx = 0; tx < width; tx += kTile)

@@ -56,7 +56,7 @@ Picture layerOf(const Film::Means& means, bool isAov) {
       const float x = values[i];
       const float t = isLog ? std::log(std::max(x, r.low) / r.low) / std::log(r.high / r.low)
                             : (x - r.low) / (r.high - r.low);
-      if (starts("element") && name.find("evel") == name.npos)
+      if (name == kElementId)
         hash(x, &p.rgb[3 * i]);
       else if (isLog || starts("element"))
         ramp(x > 0 ? t : 0, &p.rgb[3 * i]);
@@ -78,10 +78,7 @@ Picture layerOf(const Film::Means& means, bool isAov) {
 Picture withElementEdges(const Film::Means& means) {
   Picture p = layerOf(means, false);
   const auto& names = means.channels;
-  const auto id = std::size_t(
-      std::find_if(names.begin(), names.end(),
-                   [](const std::string& n) { return n.rfind(name(Aov::elementId), 0) == 0; }) -
-      names.begin());
+  const auto id = std::size_t(std::find(names.begin(), names.end(), kElementId) - names.begin());
   if (id == names.size()) return p;
   const auto idAt = [&](int x, int y) {
     return means.pixels[(std::size_t(y) * means.width + x) * names.size() + id];

@@ -121,7 +121,7 @@ void Window::drawStatus() {
     if (s.remaining >= 0 && s.phase == "rendering")
       line += fmt::format("   {} left", durationText(s.remaining));
     if (snapshot_) line += fmt::format("   {}", durationText(snapshot_->seconds));
-    if (const double noise = noiseOf(shown_); snapshot_ && layer_ == 0 && noise > 0)
+    if (const double noise = noiseOf(shown_); snapshot_ && layer_.empty() && noise > 0)
       line += fmt::format("   noise {:.3f}", noise);
     if (s.raysPerSecond > 0) line += fmt::format("   {:.2f} Mrays/s", s.raysPerSecond / 1e6);
     line += fmt::format("   first picture {:.0f} ms", 1000 * s.firstPicture);

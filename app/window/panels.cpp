@@ -71,21 +71,13 @@ void Window::drawPicturePanel() {
   if (ImGui::Combo("channel", &channel, "all\0red\0green\0blue\0luminance\0false colour\0"))
     look_.channel = Channel(channel);
   if (!preview_) return;
-  std::vector<std::string> layers;
-  for (int i = 0; i < kAovs; ++i) layers.push_back(name(Aov(i)));
-  layers.push_back("element edges");
-  std::string chosen = layer_ > 0 ? layers[std::size_t(layer_ - 1)] : "";
-  if (choose("shows", layers, chosen, "radiance")) {
-    layer_ = 0;
-    for (std::size_t i = 0; i < layers.size(); ++i)
-      if (layers[i] == chosen) layer_ = int(i) + 1;
-    wish_.aovs.clear();
-    if (layer_ == kElementEdges)
-      wish_.aovs = {Aov::elementId, Aov::elementLevel};
-    else if (layer_ > 0)
-      wish_.aovs = {Aov(layer_ - 1)};
-    restart(wish_.picture);
-  }
+  std::vector<std::string> layers = snapshot_ ? snapshot_->aovs : aovNames();
+  if (std::find(layers.begin(), layers.end(), kElementId) != layers.end())
+    layers.push_back(kElementEdges);
+  if (!choose("shows", layers, layer_, "radiance")) return;
+  wish_.aovs.clear();
+  if (!layer_.empty()) wish_.aovs = {layer_ == kElementEdges ? kElementId : layer_};
+  restart(wish_.picture);
 }
 
 void Window::drawLightPanel() {
@@ -199,23 +191,21 @@ void Window::drawPixelPanel() {
   text(fmt::format("radiance {:.5g}  {:.5g}  {:.5g}", c[0], c[1], c[2]));
   for (std::size_t i = 3; i < stride; ++i)
     text(fmt::format("{} {:.10g}", means->channels[i], c[i]));
-  drawElement(int(at->x), int(at->y));
+  drawNotes(int(at->x), int(at->y));
 }
 
-/// Of a radiosity solution, the element under the cursor. Its flux is no quantity of a pixel, so
-/// a path is traced for it.
-void Window::drawElement(int x, int y) {
+/// The notes of the integrator about the point under the cursor. A path is traced for them.
+void Window::drawNotes(int x, int y) {
   if (x != hoverX_ || y != hoverY_ || snapshot_ != hoverOver_.lock()) {
     hoverX_ = x, hoverY_ = y, hoverOver_ = snapshot_;
     preview_->hover(x, y);
   }
-  if (!hovered_ || hovered_->path.seen.empty()) return;
-  if (hovered_->x != x || hovered_->y != y) return text("element ...\n\n");
-  const auto& [vertex, e] = hovered_->path.seen.front();
-  const std::string where = vertex > 0 ? fmt::format(" seen at vertex {}", vertex + 1) : "";
-  text(fmt::format("element{}: level {}, id {}", where, e.level, e.id));
-  text(fmt::format("flux {:.5g}  {:.5g}  {:.5g} W", e.flux.r, e.flux.g, e.flux.b));
-  text(fmt::format("area {:.5g}, {}", e.area, count(static_cast<long long>(e.hits), "particle")));
+  if (!hovered_ || hovered_->path.notes.empty()) return;
+  if (hovered_->x != x || hovered_->y != y) return text("notes ...\n\n");
+  const std::size_t vertex = hovered_->path.notes.front().vertex;
+  if (vertex > 0) text(fmt::format("at vertex {}", vertex + 1));
+  for (const RecordedPath::Note& n : hovered_->path.notes)
+    if (n.vertex == vertex) text(noteText(n.note));
 }
 
 }  // namespace vestige::app

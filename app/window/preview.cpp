@@ -277,9 +277,14 @@ FilmShape Preview::shapeFor(const Wish& wish) const {
 
 Film Preview::filmFor(const Wish& wish, int scale) const {
   const FilmShape whole = shapeFor(wish);
+  const std::vector<std::string> known = aovNames(open_->scene().integrator().aovs());
+  std::vector<std::string> aovs = wish.aovs;
+  std::erase_if(aovs, [&](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) == known.end();
+  });
   return makeFilm(open_->scene(), std::max(1, whole.width / scale),
                   std::max(1, whole.height / scale), wish.region ? wish.region->data() : nullptr,
-                  wish.aovs);
+                  aovs);
 }
 
 /// Whether the film may get more samples. Where footprints go by the number of samples that was
@@ -390,6 +395,7 @@ void Preview::publish(const Wish& wish, const Film& film, int scale, double seco
   published_ = secondsNow();
   fresh->scale = scale, fresh->samples = int(film.minSamples()), fresh->seconds = seconds;
   fresh->wish = wish, fresh->integrator = open_->scene().integratorName();
+  fresh->aovs = aovNames(open_->scene().integrator().aovs());
   std::shared_ptr<const Snapshot> published = std::move(fresh);
   {
     const std::lock_guard lock(mutex_);

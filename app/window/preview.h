@@ -30,7 +30,7 @@ struct Wish {
   int picture = 0;                              ///< how it is sampled
   int width = 0, height = 0;                    ///< 0: the scene's
   std::optional<std::array<double, 4>> region;  ///< of the film, in place of the scene's crop
-  std::vector<Aov> aovs;
+  std::vector<std::string> aovs;                ///< those that the integrator lacks are left out
   int samples = 0;  ///< a pixel; 0: what the scene says. More of them go on with the same picture
   bool isPaused = false;  ///< keeps the picture, and goes on with it later
 
@@ -67,6 +67,7 @@ struct Snapshot {
   double seconds = 0;  ///< since the wish
   Wish wish;
   std::string integrator;
+  std::vector<std::string> aovs;  ///< that the integrator has
 };
 
 /// What the text, or a plugin, has to say to the user.

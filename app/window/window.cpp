@@ -212,11 +212,11 @@ void Window::takeSnapshot() {
         vertex_ = int(k);
   }
   if (const std::string news = preview_->news(); !news.empty()) say(news);
-  if (const auto fresh = preview_->hovered(); fresh != hovered_) hovered_ = fresh, tellOfElement();
+  if (const auto fresh = preview_->hovered(); fresh != hovered_) hovered_ = fresh, tellOfNotes();
   const auto fresh = preview_->snapshot();
   if (!fresh || fresh == snapshot_) return;
   snapshot_ = fresh;
-  const bool isAov = layer_ > 0 && layer_ <= kAovs && !fresh->wish.aovs.empty();
+  const bool isAov = !layer_.empty() && layer_ != kElementEdges && fresh->means.channels.size() > 3;
   shown_ = layer_ == kElementEdges ? withElementEdges(fresh->means) : layerOf(fresh->means, isAov);
   look_.isData = isAov;
   screen_->setPicture(shown_.rgb.data(), shown_.width, shown_.height);
@@ -282,10 +282,10 @@ void Window::tellOfPicture(const Snapshot* before) {
             << std::flush;
 }
 
-void Window::tellOfElement() {
-  if (!request_.tells || !hovered_ || hovered_->path.seen.empty()) return;
-  const SeenElement& e = hovered_->path.seen.front().element;
-  std::cout << fmt::format("element level {} {}\n", e.level, elementText(e)) << std::flush;
+void Window::tellOfNotes() {
+  if (!request_.tells || !hovered_ || hovered_->path.notes.empty()) return;
+  const std::size_t vertex = hovered_->path.notes.front().vertex;
+  std::cout << fmt::format("notes {}\n", notesText(hovered_->path, vertex)) << std::flush;
 }
 
 void Window::tellOfWaits() {

@@ -65,7 +65,7 @@ class Window {
   void drawCameraPanel();
   void drawComparePanel();
   void drawPixelPanel();
-  void drawElement(int x, int y);
+  void drawNotes(int x, int y);
   // inspector.cpp: the clicked path
   void drawInspectorPanel();
   void drawVertex(std::size_t index, const std::vector<std::string>& names);
@@ -88,7 +88,7 @@ class Window {
   /// Of --events.
   void tell(const std::string& event);
   void tellOfPicture(const Snapshot* before);
-  void tellOfElement();
+  void tellOfNotes();
 
   /// Of the side panel and the line at the bottom, in what ImGui counts in.
   float panelWidth() const { return 350 * scale_; }
@@ -121,7 +121,7 @@ class Window {
   Look look_;
   Sheet sheet_;
   bool isFitted_ = true;
-  int layer_ = 0;  ///< 0: the picture, else an AOV
+  std::string layer_;  ///< an AOV, or kElementEdges; "": the picture
   std::vector<DisplayViews> displays_;
   std::string message_;
   double messageUntil_ = 0;

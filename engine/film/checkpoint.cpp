@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines for people (what the file is, the label, the effort), then little-endian numbers: what
-// Film::storage() holds, and a checksum of everything before it.
+// Layout: lines of text (what the file is, the label, the effort), then little-endian numbers:
+// Film::storage() and a checksum of everything before it.
 #include "engine/film/checkpoint.h"
 
 #include <fcntl.h>
@@ -24,9 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kName = "vestige checkpoint ";
-constexpr int kLayout = 2;  ///< of the file; grows whenever older files cannot be read any more
+constexpr int kLayout = 2;  ///< of the file; incremented when older files become unreadable
 constexpr const char* kLastLine = "film";  ///< of the text
-constexpr char kTab = '\t';                ///< between what a fact is about and its value
+constexpr char kTab = '\t';                ///< between the name of a fact and its value
 constexpr std::size_t kPiece = 1 << 20;    ///< bytes read at once
 
 using Numbers = std::array<std::uint64_t, 6>;
@@ -49,7 +49,7 @@ class Checksum {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-/// Words of a file's name may be anything.
+/// File names may hold any character.
 std::string onOneLine(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, '?');
@@ -74,7 +74,7 @@ CheckpointLabel wholeLabel(const Film& film, CheckpointLabel label) {
   for (const int n : {film.width(), film.height()}) size.push_back(std::to_string(n));
   const Crop c = film.crop();
   for (const int n : {c.x0, c.y0, c.x1, c.y1}) crop.push_back(std::to_string(n));
-  for (const Aov a : film.aovs()) aovs.emplace_back(name(a));
+  for (const FilmLayer& l : film.layers()) aovs.push_back(l.name);
   label.push_back({"the film's size", joined(size, " x ")});
   label.push_back({"the crop window", joined(crop, ",")});
   label.push_back({"the list of AOVs", aovs.empty() ? "empty" : joined(aovs, ",")});
@@ -83,7 +83,7 @@ CheckpointLabel wholeLabel(const Film& film, CheckpointLabel label) {
   return label;
 }
 
-/// A file beside `path` that takes its place at the end, or goes away.
+/// A temporary file beside `path`: finish() renames it to `path`, otherwise it is deleted.
 class Replacement {
  public:
   explicit Replacement(const std::string& path)
@@ -115,7 +115,7 @@ class Replacement {
     if (fsync(file_) != 0 || close(std::exchange(file_, -1)) != 0) giveUp();
     if (std::rename(partial_.c_str(), path_.c_str()) != 0) giveUp();
     isDone_ = true;
-    // The name must be safe too; where a folder cannot do that there is nothing to be done.
+    // The folder's entry must reach the disk too. Some file systems cannot do that; ignore them.
     const fs::path folder = fs::path(path_).parent_path();
     const int opened = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC);
     if (opened < 0) return;
@@ -134,7 +134,7 @@ class Replacement {
   Checksum checksum_;
 };
 
-/// Whether the file ends as it should; goes back to its beginning.
+/// Whether the checksum is right. Then the stream is at its beginning again.
 bool isWhole(std::ifstream& in, std::uintmax_t size) {
   std::uint64_t wanted = 0;
   if (size < sizeof wanted) return false;
@@ -151,7 +151,7 @@ bool isWhole(std::ifstream& in, std::uintmax_t size) {
   return true;
 }
 
-/// Throws unless the line begins a file of the layout that this program writes.
+/// Throws unless the first line names the layout that this program writes.
 void checkFirstLine(const std::string& line, const std::string& path) {
   const std::string name = kName;
   if (line == name + std::to_string(kLayout)) return;
@@ -177,7 +177,7 @@ CheckpointLabel readLabel(std::istream& in) {
   return label;
 }
 
-/// How the labels differ, for the user; "" if they do not.
+/// The first difference between the labels, for the user; "" if there is none.
 std::string difference(const CheckpointLabel& then, const CheckpointLabel& now) {
   for (std::size_t i = 0; i < std::max(then.size(), now.size()); ++i) {
     if (i >= now.size()) return then[i].what + " is missing now";

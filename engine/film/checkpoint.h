@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film in a file, from which the same render goes on to the bit.
+// A film in a file. A render continued from it gives the same bits as one in a single run.
 #pragma once
 #include <string>
 #include <vector>
@@ -12,24 +12,24 @@ namespace vestige {
 struct CheckpointFact {
   std::string what;            ///< for people: "the seed", "'cat.png'"
   std::string value;           ///< "7", or a fingerprint
-  bool isFingerprint = false;  ///< then the value tells nobody anything
+  bool isFingerprint = false;  ///< the value is meaningless to people
 };
-/// All but what the film itself knows: its size, crop window and AOVs.
+/// Everything but the size, crop window and AOVs, which the film itself has.
 using CheckpointLabel = std::vector<CheckpointFact>;
 
-/// What the film's samples took, summed over all runs.
+/// The cost of the film's samples, summed over all runs.
 struct Effort {
   double seconds = 0;
   Counters counters = {};
 };
 
-/// The film must stand still. The file is replaced at once when the new one is safe on the disk;
-/// until then, and whatever goes wrong, the old one stays. Both throw std::runtime_error with a
-/// sentence for the user.
+/// Nothing may add to the film meanwhile. The old file stays until the new one is complete on the
+/// disk, and is then replaced in one step. Both functions throw std::runtime_error with a sentence
+/// for the user.
 void saveCheckpoint(const Film& film, const CheckpointLabel& label, const Effort& effort,
                     const std::string& path);
-/// Fills a film of the same size, crop window and AOVs; untouched if the file is damaged, or is of
-/// another render: the sentence names the first difference.
+/// Fills a film of the same size, crop window and AOVs. If the file is damaged or belongs to
+/// another render the film is unchanged, and the sentence names the first difference.
 Effort loadCheckpoint(Film& film, const CheckpointLabel& label, const std::string& path);
 
 }  // namespace vestige

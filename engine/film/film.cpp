@@ -46,25 +46,26 @@ bool addTo(Sum& sum, Sum x) noexcept {
 }  // namespace
 
 bool Film::wantsFootprint() const noexcept {
-  const auto isAbout = [](Aov a) {
-    return a == Aov::footprint || a == Aov::footprintTexels || a == Aov::gradient;
-  };
-  return std::any_of(aovs_.begin(), aovs_.end(), isAbout);
+  return std::any_of(layers_.begin(), layers_.end(),
+                     [](const FilmLayer& l) { return l.needsFootprint; });
 }
 
-Film::Film(int width, int height, Crop crop, std::vector<Aov> aovs, double sceneSize)
-    : width_(width), height_(height), crop_(crop), aovs_(std::move(aovs)) {
+Film::Film(int width, int height, Crop crop, const std::vector<std::string>& aovs, double sceneSize,
+           std::span<const AovSlot> own)
+    : width_(width), height_(height), crop_(crop) {
   assert(0 <= crop.x0 && crop.x0 < crop.x1 && crop.x1 <= width);
   assert(0 <= crop.y0 && crop.y0 < crop.y1 && crop.y1 <= height);
-  for (const Aov aov : aovs_) {
-    layers_.push_back(layerOf(aov, sceneSize));
-    stored_ += std::size_t(layers_.back().stored());
+  for (const std::string& name : aovs) {
+    std::optional<FilmLayer> layer = layerOf(name, sceneSize, own);
+    if (!layer) throw std::runtime_error("there is no AOV '" + name + "'");
+    stored_ += std::size_t(layer->stored());
+    layers_.push_back(std::move(*layer));
   }
   const std::size_t pixels = std::size_t(crop.x1 - crop.x0) * std::size_t(crop.y1 - crop.y0);
   counts_.assign(pixels, 0);
   radiance_.assign(pixels * kColours, 0);
   sums_.assign(pixels * stored_, 0);
-  cuts_.assign(layers_.size(), 0);
+  cuts_.resize(layers_.size());
 }
 
 std::size_t Film::index(int x, int y) const noexcept {
@@ -88,15 +89,15 @@ void Film::add(int x, int y, Rgb radiance, const Aovs& aovs, Counters& counters)
   }
   counters.clamped += isClamped;
   std::int64_t* stored = sums_.data() + pixel * stored_;
-  for (std::size_t i = 0; i < layers_.size(); ++i) {
+  for (int i = 0; i < layers_.size(); ++i) {
     Real v[3];
-    const int count = values(aovs_[i], aovs, v);
+    const int count = values(layers_[i], aovs, v);
     addLayer(i, {v, std::size_t(count)}, stored);
     stored += count;
   }
 }
 
-void Film::addLayer(std::size_t layer, std::span<const Real> values, std::int64_t* sums) noexcept {
+void Film::addLayer(int layer, std::span<const Real> values, std::int64_t* sums) noexcept {
   const double unit = layers_[layer].unit;
   const double limit = layers_[layer].limit();
   bool isCut = false;
@@ -122,14 +123,14 @@ void Film::merge(const Film& other, Counters& counters) {
       isClamped |= !addTo(radiance_[i], other.radiance_[i]);
     counters.clamped += isClamped;
     std::size_t at = pixel * stored_;
-    for (std::size_t layer = 0; layer < layers_.size(); ++layer) {
+    for (int layer = 0; layer < layers_.size(); ++layer) {
       bool isCut = false;
       for (int i = 0; i < layers_[layer].stored(); ++i, ++at)
         isCut |= !addTo(sums_[at], other.sums_[at]);
       cuts_[layer] += isCut;
     }
   }
-  for (std::size_t layer = 0; layer < layers_.size(); ++layer) cuts_[layer] += other.cuts_[layer];
+  for (int layer = 0; layer < layers_.size(); ++layer) cuts_[layer] += other.cuts_[layer];
 }
 
 std::uint32_t Film::samples(int x, int y) const noexcept { return counts_[index(x, y)]; }
@@ -175,12 +176,14 @@ Film::Means Film::means() const {
 
 std::array<std::span<std::byte>, 4> Film::storage() noexcept {
   return {std::as_writable_bytes(std::span(radiance_)), std::as_writable_bytes(std::span(sums_)),
-          std::as_writable_bytes(std::span(counts_)), std::as_writable_bytes(std::span(cuts_))};
+          std::as_writable_bytes(std::span(counts_)),
+          std::as_writable_bytes(std::span(cuts_.data(), std::size_t(cuts_.size())))};
 }
 
 std::array<std::span<const std::byte>, 4> Film::storage() const noexcept {
   return {std::as_bytes(std::span(radiance_)), std::as_bytes(std::span(sums_)),
-          std::as_bytes(std::span(counts_)), std::as_bytes(std::span(cuts_))};
+          std::as_bytes(std::span(counts_)),
+          std::as_bytes(std::span(cuts_.data(), std::size_t(cuts_.size())))};
 }
 
 Film withoutAovs(const Film& film) {

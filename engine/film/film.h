@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where samples are summed: integers, so that the picture is the same in whatever order they come.
+// Sums of samples, as integers: the picture does not depend on their order.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <vestige/integrator.h>
+#include <vestige/table.h>
 
 #include "engine/film/aov.h"
 
@@ -32,39 +33,41 @@ inline constexpr double kRadianceLimit = 0x1p50;
 /// to a pixel at a time; different pixels may be added to at once.
 class Film {
  public:
-  /// `sceneSize` as in layerOf().
-  Film(int width, int height, Crop crop, std::vector<Aov> aovs, double sceneSize = 1);
+  /// The AOVs by name, `own` are those of the integrator; `sceneSize` as in layerOf(). Throws
+  /// std::runtime_error with a sentence for the user where a name is unknown.
+  Film(int width, int height, Crop crop, const std::vector<std::string>& aovs, double sceneSize = 1,
+       std::span<const AovSlot> own = {});
 
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
   Crop crop() const noexcept { return crop_; }
-  const std::vector<Aov>& aovs() const noexcept { return aovs_; }
-  const std::vector<FilmLayer>& layers() const noexcept { return layers_; }
-  /// Whether one of them is about footprints, which paths otherwise carry for textures only.
+  /// One for each AOV.
+  const Table<FilmLayer>& layers() const noexcept { return layers_; }
+  /// Whether an AOV needs footprints; otherwise paths carry them for textures only.
   bool wantsFootprint() const noexcept;
 
-  /// Adds one sample of weight 1. Radiance that is not finite is left out as black and counted;
-  /// radiance beyond the limit is clamped and counted. Of AOVs, cuts() counts both.
+  /// Adds one sample of weight 1. Radiance that is not finite becomes black, radiance beyond the
+  /// limit is clamped; `counters` counts both. cuts() counts both for AOVs.
   void add(int x, int y, Rgb radiance, const Aovs& aovs, Counters& counters) noexcept;
-  /// Adds all samples of another film of the same size, crop window, AOVs and units: to the bit
-  /// what one film with all the samples holds. Throws std::runtime_error with a sentence for the
-  /// user if the films differ. Sums that do not fit are clamped and counted as in add().
+  /// Adds all samples of another film of the same size, crop window, AOVs and units. The result is
+  /// the same to the bit as one film with all the samples. Throws std::runtime_error with a
+  /// sentence for the user if the films differ. Sums that do not fit are clamped and counted as in
+  /// add().
   void merge(const Film& other, Counters& counters);
 
-  /// Samples that the pixel holds.
   std::uint32_t samples(int x, int y) const noexcept;
-  /// Fewest samples of any pixel.
+  /// Of the pixel with the fewest.
   std::uint32_t minSamples() const noexcept;
-  /// Most samples of any pixel, and their mean over the pixels.
+  /// Of the pixel with the most, and the mean over all pixels.
   std::uint32_t maxSamples() const noexcept;
   double meanSamples() const noexcept;
-  /// Luminance of the pixel's mean; 0 where no sample is.
+  /// Luminance of the pixel's mean; 0 without samples.
   double luminance(int x, int y) const noexcept;
   /// Samples of each layer whose values were not finite or too large.
-  std::span<const std::uint64_t> cuts() const noexcept { return cuts_; }
+  const Table<std::uint64_t>& cuts() const noexcept { return cuts_; }
 
   /// Means so far: R, G, B, then the AOVs' channels ("normal.X", "depth.Z", "uv.U", ...). Size of
-  /// the crop window; black where no sample is.
+  /// the crop window; black without samples.
   struct Means {
     int width, height;
     std::vector<std::string> channels;
@@ -72,7 +75,7 @@ class Film {
   };
   Means means() const;
 
-  /// All numbers that it holds, as bytes of this machine: sums of radiance and of AOVs row by row,
+  /// All its numbers, as bytes of this machine: sums of radiance and of AOVs row by row,
   /// samples of each pixel, cuts of each layer.
   std::array<std::span<std::byte>, 4> storage() noexcept;
   std::array<std::span<const std::byte>, 4> storage() const noexcept;
@@ -81,20 +84,19 @@ class Film {
  private:
   friend Film withoutAovs(const Film& film);
   std::size_t index(int x, int y) const noexcept;
-  void addLayer(std::size_t layer, std::span<const Real> values, std::int64_t* sums) noexcept;
+  void addLayer(int layer, std::span<const Real> values, std::int64_t* sums) noexcept;
 
   int width_, height_;
   Crop crop_;
-  std::vector<Aov> aovs_;
-  std::vector<FilmLayer> layers_;  ///< of each AOV
-  std::size_t stored_ = 0;         ///< channels of all layers that have sums
+  Table<FilmLayer> layers_;
+  std::size_t stored_ = 0;  ///< channels of all layers that have sums
   std::vector<Int128> radiance_;
   std::vector<std::int64_t> sums_;
   std::vector<std::uint32_t> counts_;
-  std::vector<std::uint64_t> cuts_;  ///< several threads may count at once
+  Table<std::uint64_t> cuts_;  ///< of each layer; several threads may count at once
 };
 
-/// Its radiance alone.
+/// A copy of the radiance alone.
 Film withoutAovs(const Film& film);
 
 }  // namespace vestige

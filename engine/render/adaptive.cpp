@@ -10,7 +10,7 @@
 namespace vestige {
 namespace {
 
-/// Of an interval, until the budget is met to a few samples.
+/// Steps of the bisection that meets the budget to a few samples.
 constexpr int kHalvings = 40;
 
 }  // namespace
@@ -20,18 +20,18 @@ Adaptive::Adaptive(const Film& film, Goal goal)
       target_(goal.noise * goal.noise),
       blocksX_((crop_.x1 - crop_.x0 + kBlock - 1) / kBlock),
       blocksY_((crop_.y1 - crop_.y0 + kBlock - 1) / kBlock),
-      blocks_(std::size_t(blocksX_) * std::size_t(blocksY_)),
+      blocks_(blocksX_ * blocksY_),
       pixels_(std::int64_t(crop_.x1 - crop_.x0) * (crop_.y1 - crop_.y0)) {
   budget_ = goal.samples * double(pixels_);
-  // A quarter of the samples is spent on finding out where the others belong.
+  // A quarter of the samples finds out where the others belong.
   least_ = budget_ > 0 ? std::clamp(int(goal.samples / 4), 2, kLeastSamples) : kLeastSamples;
   luminance_.assign(std::size_t(pixels_), 0);
   for (int y = crop_.y0; y < crop_.y1; ++y)
     for (int x = crop_.x0; x < crop_.x1; ++x) ++blocks_[block(x, y)].pixels;
 }
 
-std::size_t Adaptive::block(int x, int y) const noexcept {
-  return std::size_t((y - crop_.y0) / kBlock * blocksX_ + (x - crop_.x0) / kBlock);
+int Adaptive::block(int x, int y) const noexcept {
+  return (y - crop_.y0) / kBlock * blocksX_ + (x - crop_.x0) / kBlock;
 }
 
 void Adaptive::judge(const Film& film, int samples) {
@@ -52,7 +52,7 @@ void Adaptive::close(Block& b) noexcept {
   pixelsDone_ += b.pixels;
 }
 
-/// Errors of the blocks under way, from means then and now.
+/// Errors of the open blocks, from the means at the last decision and now.
 void Adaptive::measure(const Film& film, double scale) {
   std::vector<double> now(luminance_.size());
   std::size_t pixel = 0;
@@ -67,54 +67,57 @@ void Adaptive::measure(const Film& film, double scale) {
     for (int x = crop_.x0; x < crop_.x1; ++x, ++pixel) {
       Block& b = blocks_[block(x, y)];
       const double change = (now[pixel] - luminance_[pixel]) / std::max(now[pixel], least);
-      if (!b.done) b.error += change * change * scale, b.samples = samples_;
+      if (b.done) continue;
+      b.error += change * change * scale;
+      b.samples = samples_;
     }
   luminance_ = std::move(now);
 }
 
 template <class Visit>
-void Adaptive::forNeighbours(std::size_t block, const Visit& visit) const {
-  const int bx = int(block) % blocksX_, by = int(block) / blocksX_;
+void Adaptive::forNeighbours(int block, const Visit& visit) const {
+  const int bx = block % blocksX_, by = block / blocksX_;
   for (int y = std::max(by - 1, 0); y <= std::min(by + 1, blocksY_ - 1); ++y)
     for (int x = std::max(bx - 1, 0); x <= std::min(bx + 1, blocksX_ - 1); ++x)
-      visit(blocks_[std::size_t(y * blocksX_ + x)]);
+      visit(blocks_[y * blocksX_ + x]);
 }
 
 void Adaptive::closeQuiet() {
-  for (std::size_t i = 0; i < blocks_.size(); ++i) blocks_[i].excess = excess(i);
+  for (int i = 0; i < blocks_.size(); ++i) blocks_[i].excess = excess(i);
   for (Block& b : blocks_) {
     if (b.done || b.excess > 1) continue;
     close(b);
-    // It will not change any more: neighbours shall not wait for it.
+    // Its error will not change any more, so neighbours must not wait for it.
     b.error = std::min(b.error, b.pixels * target_);
   }
 }
 
-/// The rule: the mean over the block and its neighbours is below the target, and none of them is
-/// far above it. As a multiple of the squared error allowed, hence of the samples taken.
-double Adaptive::excess(std::size_t block) const noexcept {
+/// A block is done when the mean over it and its neighbours is below the target and none of them is
+/// far above it. Returns the squared error over the allowed one, hence samples needed over taken.
+double Adaptive::excess(int block) const noexcept {
   double sum = 0, worst = 0;
   int pixels = 0;
   forNeighbours(block, [&](const Block& b) {
-    sum += b.error, pixels += b.pixels;
+    sum += b.error;
+    pixels += b.pixels;
     worst = std::max(worst, b.error / b.pixels);
   });
   return std::max(sum / pixels, worst / (kFar * kFar)) / target_;
 }
 
-/// The sum of s^2 / n is least for samples n ~ s: the most samples for each s are looked for that
-/// the budget can pay. Blocks that would not double are done.
+/// The sum of s^2 / n is least for n proportional to s. Finds the largest factor that the budget
+/// pays for, and closes the blocks whose samples would not double.
 void Adaptive::closePaid() {
-  std::vector<double> deviations(blocks_.size());
+  Table<double> deviations(blocks_.size());
   double largest = 0;
-  for (std::size_t i = 0; i < blocks_.size(); ++i)
+  for (int i = 0; i < blocks_.size(); ++i)
     if (!blocks_[i].done) largest = std::max(largest, deviations[i] = deviation(i));
-  const auto doublings = [&](std::size_t i, double rate) {
+  const auto doublings = [&](int i, double rate) {
     return std::max(0.0, std::round(std::log2(rate * deviations[i] / samples_)));
   };
   const auto isTooDear = [&](double rate) {
     double cost = taken_;
-    for (std::size_t i = 0; i < blocks_.size(); ++i)
+    for (int i = 0; i < blocks_.size(); ++i)
       if (!blocks_[i].done && deviations[i] > 0)
         cost += blocks_[i].pixels * samples_ * (std::exp2(doublings(i, rate)) - 1);
     return cost > budget_;
@@ -122,21 +125,27 @@ void Adaptive::closePaid() {
   double paid = 0;
   if (largest > 0 && std::isfinite(largest)) {
     double dear = samples_ / largest;
-    while (!isTooDear(dear)) paid = dear, dear *= 2;
+    while (!isTooDear(dear)) {
+      paid = dear;
+      dear *= 2;
+    }
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = (paid + dear) / 2;
       (isTooDear(middle) ? dear : paid) = middle;
     }
   }
-  for (std::size_t i = 0; i < blocks_.size(); ++i)
+  for (int i = 0; i < blocks_.size(); ++i)
     if (!blocks_[i].done && !(doublings(i, paid) > 0)) close(blocks_[i]);
 }
 
-/// Of one sample of one pixel over luminance, from the block and its neighbours.
-double Adaptive::deviation(std::size_t block) const noexcept {
+/// Standard deviation of one sample of a pixel over luminance, from the block and its neighbours.
+double Adaptive::deviation(int block) const noexcept {
   double sum = 0;
   int pixels = 0;
-  forNeighbours(block, [&](const Block& b) { sum += b.error * b.samples, pixels += b.pixels; });
+  forNeighbours(block, [&](const Block& b) {
+    sum += b.error * b.samples;
+    pixels += b.pixels;
+  });
   return std::sqrt(sum / pixels);
 }
 

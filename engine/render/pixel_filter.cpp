@@ -8,7 +8,7 @@ constexpr double kRadius = 1.5;  ///< pixels
 constexpr double kSigma = 0.5;   ///< of the Gaussian, pixels
 constexpr double kTwoPi = 6.283185307179586;
 
-/// Not normalised; x in [-kRadius, kRadius].
+/// Density of the filter, not normalised; x in [-kRadius, kRadius].
 double weight(PixelFilter filter, double x) {
   if (filter == PixelFilter::gaussian) return std::exp(-x * x / (2 * kSigma * kSigma));
   // Four-term Blackman-Harris window [Harris 1978, 92 dB].
@@ -20,7 +20,7 @@ double weight(PixelFilter filter, double x) {
 
 PixelFilterSampler::PixelFilterSampler(PixelFilter filter) : isBox_(filter == PixelFilter::box) {
   if (isBox_) return;
-  // Integrate finely, then invert: offset where the running integral reaches i / kCells.
+  // Integrates in fine steps and inverts: the offset at which the integral reaches i / kCells.
   constexpr int kSteps = 1 << 16;
   const double h = 2 * kRadius / kSteps;
   double total = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where in and around a pixel a sample falls, drawn by the filter itself so that every sample has
-// weight 1.
+// Positions of samples in and around a pixel, drawn from the filter itself: every sample has weight
+// 1.
 #pragma once
 #include <array>
 
@@ -8,7 +8,7 @@
 
 namespace vestige {
 
-/// An offset from the pixel's centre along one axis, and how it moves with the random number.
+/// An offset from the pixel's centre along one axis, and its derivative by the random number.
 struct FilterOffset {
   Real offset;  ///< pixels
   Real slope;   ///< pixels per unit of random number, at most kMaxSlope
@@ -19,7 +19,8 @@ class PixelFilterSampler {
   explicit PixelFilterSampler(PixelFilter filter);
   FilterOffset sample(Real u) const noexcept;
 
-  /// The tails of a filter are thin, so a number moves far there; a footprint shall not [MATH 1.1].
+  /// In a filter's thin tails a small change of u moves the sample far; the footprint's slope is
+  /// capped at this [MATH 1.1].
   static constexpr Real kMaxSlope = 2;
 
  private:

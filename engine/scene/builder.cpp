@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "engine/light/shape_light.h"
+#include "engine/scene/aov_slots.h"
 #include "engine/scene/engine_schemas.h"
 #include "engine/scene/middle.h"
 
@@ -638,6 +639,9 @@ void SceneBuilder::addIntegrator() {
   }
   impl_.integrator = create<Integrator>(wanted);
   impl_.integratorName = wanted.plugin;
+  if (!impl_.integrator) return;
+  if (const std::string wrong = whatIsWrong(impl_.integrator->aovs()); !wrong.empty())
+    error(wanted.span, fmt::format("integrator {} {}", wanted.plugin, wrong));
 }
 
 void SceneBuilder::readFilm(const Block& block) {

@@ -54,6 +54,7 @@ Scene::~Scene() = default;
 const SceneView& Scene::view() const noexcept { return impl_->view; }
 const Camera& Scene::camera() const noexcept { return *impl_->camera; }
 Integrator& Scene::integrator() noexcept { return *impl_->integrator; }
+const Integrator& Scene::integrator() const noexcept { return *impl_->integrator; }
 const std::string& Scene::integratorName() const noexcept { return impl_->integratorName; }
 const FilmSettings& Scene::film() const noexcept { return impl_->film; }
 TextureUse Scene::textureUse() const { return impl_->textures->use(); }

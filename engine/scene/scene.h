@@ -39,6 +39,7 @@ class Scene {
   const SceneView& view() const noexcept;
   const Camera& camera() const noexcept;
   Integrator& integrator() noexcept;
+  const Integrator& integrator() const noexcept;
   const std::string& integratorName() const noexcept;
   const FilmSettings& film() const noexcept;
   TextureUse textureUse() const;

@@ -19,6 +19,27 @@ plane { y, 0 brdf lambert { diffuse pigment checker { rgb 0.2, rgb 0.8 } } }
 
 }  // namespace
 
+TEST_CASE("inspect shows an integrator's notes", "[app][inspect]") {
+  const Folder folder;
+  const std::string scene =
+      folder.write("a.scene",
+                   "camera orthographic { location <0, 3, -1> look_at <0, 3, 0> width 1e-6 }\n"
+                   "film { resolution <1, 1> }\nintegrator own_aovs {}\n");
+  const std::vector<std::string> words = {"inspect", scene,           "0",
+                                          "0",       "--plugin-path", VESTIGE_OWN_AOVS};
+  const Run text = runVestige(words);
+  INFO(text.err);
+  CHECK(text.exit == 0);
+  CHECK_THAT(text.out, containsText("    notes       test.start <"));
+  CHECK_THAT(text.out, containsText("> scene units, number 16777215\n"));
+  std::vector<std::string> json = words;
+  json.push_back("--json");
+  const auto notes = nlohmann::json::parse(runVestige(json).out).at("vertices").at(0).at("notes");
+  CHECK(notes.at("number").get<double>() == 16777215);
+  REQUIRE(notes.at("test.start").size() == 3);
+  CHECK(notes.at("test.start").at(2).get<double>() == Approx(-1).margin(1e-5));
+}
+
 TEST_CASE("inspect tells what a path hit and how large it is there", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", kPlane);

@@ -123,6 +123,39 @@ TEST_CASE("AOVs go into EXR, and a PNG alone is warned about", "[app]") {
   CHECK_THAT(png.err, containsText("warning: PNG and JPEG keep colour only"));
 }
 
+TEST_CASE("AOVs of the integrator's own are known by name", "[app]") {
+  const Folder folder;
+  const std::string scene =
+      folder.write("a.scene",
+                   "camera orthographic { location <0, 0, -1> look_at 0 width 4 }\n"
+                   "film { resolution <4, 1> }\nintegrator own_aovs { value 7 }\n");
+  const std::string exr = folder / "a.exr";
+  const auto run = [&](const std::string& aovs, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {
+        scene, "-o", exr, "--plugin-path", VESTIGE_OWN_AOVS, "--aov", aovs, "--spp", "4"};
+    words.insert(words.end(), more.begin(), more.end());
+    return runVestige(words);
+  };
+  for (const char* aovs : {"all", "test.value", "depth,test.value,depth"}) {
+    INFO(aovs);
+    CHECK(run(aovs).exit == 0);
+    std::ifstream file(exr, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    CHECK(bytes.find("test.value") != std::string::npos);
+    CHECK((bytes.find("aim.x") != std::string::npos) == (std::string(aovs) == "all"));
+  }
+  const Run unknown = run("depth,zzz");
+  CHECK(unknown.exit == 2);
+  CHECK_THAT(unknown.err, containsText("--aov knows no 'zzz'; with this integrator it knows all, "
+                                       "normal, albedo,") &&
+                              containsText("gradient, test.value, aim.x"));
+  CHECK_THAT(run("test.valve").err, containsText("did you mean 'test.value'?"));
+  // Another integrator has other AOVs.
+  const Run other = run("test.value", {"--integrator", "path"});
+  CHECK(other.exit == 2);
+  CHECK_THAT(other.err, containsText("--aov knows no 'test.value'"));
+}
+
 TEST_CASE("statistics count what was done", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("a.scene", smallScene());

@@ -24,7 +24,7 @@ Rendered rendered(const SceneDesc& description, const RenderOptions& options) {
   Diagnostics diagnostics;
   auto scene = buildScene(description, test::registry(), {}, diagnostics);
   REQUIRE(scene);
-  Film film = makeFilm(*scene, 0, 0, nullptr, {Aov::samples});
+  Film film = makeFilm(*scene, 0, 0, nullptr, {"samples"});
   const RenderResult result = render(*scene, film, options);
   return {film, result};
 }

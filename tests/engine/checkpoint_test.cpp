@@ -24,7 +24,7 @@ const CheckpointLabel kLabel = {{"the scene", "1f", true}, {"the seed", "7"}};
 const Effort kEffort{1.5, {.rays = 9, .paths = 5, .clampedIndirect = 3}};
 
 /// Six pixels with different numbers of samples.
-Film someFilm(std::vector<Aov> aovs = {Aov::normal, Aov::depth}) {
+Film someFilm(std::vector<std::string> aovs = {"normal", "depth"}) {
   Film film(5, 3, kCrop, std::move(aovs));
   Counters counters;
   Aovs seen;
@@ -37,7 +37,7 @@ Film someFilm(std::vector<Aov> aovs = {Aov::normal, Aov::depth}) {
   film.add(kCrop.x0, kCrop.y0, {}, seen, counters);
   return film;
 }
-Film emptyFilm(std::vector<Aov> aovs = {Aov::normal, Aov::depth}) {
+Film emptyFilm(std::vector<std::string> aovs = {"normal", "depth"}) {
   return Film(5, 3, kCrop, std::move(aovs));
 }
 
@@ -74,7 +74,7 @@ Rendering begin(const SceneDesc& text) {
   Diagnostics diagnostics;
   auto scene = buildScene(text, test::registry(), {}, diagnostics);
   REQUIRE(scene);
-  Film film = makeFilm(*scene, 0, 0, nullptr, {Aov::albedo});
+  Film film = makeFilm(*scene, 0, 0, nullptr, {"albedo"});
   return {std::move(scene), std::move(film)};
 }
 
@@ -110,9 +110,9 @@ TEST_CASE("a checkpoint of another render is refused by its first difference", "
   CHECK_THAT(whyNot(emptyFilm(), other, file), because("the seed was 7 and is 8 now"));
   other = {kLabel[0], {"the file 'a\nb'", "3", true}, kLabel[1]};
   CHECK_THAT(whyNot(emptyFilm(), other, file), because("the file 'a?b' is new"));
-  CHECK_THAT(whyNot(Film(5, 4, kCrop, {Aov::normal, Aov::depth}), kLabel, file),
+  CHECK_THAT(whyNot(Film(5, 4, kCrop, {"normal", "depth"}), kLabel, file),
              because("the film's size was 5 x 3 and is 5 x 4 now"));
-  CHECK_THAT(whyNot(Film(5, 3, {0, 0, 3, 2}, {Aov::normal, Aov::depth}), kLabel, file),
+  CHECK_THAT(whyNot(Film(5, 3, {0, 0, 3, 2}, {"normal", "depth"}), kLabel, file),
              because("the crop window was 1,0,4,2 and is 0,0,3,2 now"));
   CHECK_THAT(whyNot(emptyFilm({}), kLabel, file),
              because("the list of AOVs was normal,depth and is empty now"));
@@ -140,7 +140,7 @@ TEST_CASE("a checkpoint whose AOVs have other units is refused", "[checkpoint]")
   const TempFolder folder;
   const std::string file = folder / "a.checkpoint";
   saveCheckpoint(someFilm(), kLabel, kEffort, file);
-  CHECK_THAT(whyNot(Film(5, 3, kCrop, {Aov::normal, Aov::depth}, 8), kLabel, file),
+  CHECK_THAT(whyNot(Film(5, 3, kCrop, {"normal", "depth"}, 8), kLabel, file),
              containsText("the list of the AOVs' units was -40,-32 and is -40,-29 now"));
 }
 

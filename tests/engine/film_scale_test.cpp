@@ -22,7 +22,7 @@ struct Rendered {
 };
 
 Rendered rendered(const SceneDesc& description, const RenderOptions& options,
-                  std::vector<Aov> aovs = {}) {
+                  std::vector<std::string> aovs = {}) {
   Diagnostics diagnostics;
   auto scene = buildScene(description, test::registry(), {}, diagnostics);
   REQUIRE(scene);
@@ -133,7 +133,7 @@ TEST_CASE("depth and position come out of scenes of any size", "[film]") {
   for (const double size : {1e-9, 1e-3, 1.0, 1e6, 1e9}) {
     INFO("size " << size);
     const Rendered r =
-        rendered(furnace(1, 0.5, size), {.samples = 64, .threads = 2}, {Aov::depth, Aov::position});
+        rendered(furnace(1, 0.5, size), {.samples = 64, .threads = 2}, {"depth", "position"});
     const Film::Means m = r.film.means();
     const std::size_t stride = m.channels.size();
     // The pixels at the centre see the ball at (0, 0, -size), 3 sizes away.

@@ -32,7 +32,7 @@ std::vector<Rgb> wideSamples(int count) {
 
 /// The samples as radiance and as an AOV.
 Film filmOf(const std::vector<Rgb>& samples) {
-  Film film(1, 1, kOnePixel, {Aov::albedo});
+  Film film(1, 1, kOnePixel, {"albedo"});
   Counters counters;
   for (const Rgb& s : samples) {
     Aovs aovs{};
@@ -94,12 +94,12 @@ TEST_CASE("parts of the samples merge to the film of all of them", "[film]") {
 
 TEST_CASE("films that differ are not merged", "[film]") {
   Counters counters;
-  Film film(4, 4, {0, 0, 2, 2}, {Aov::depth});
+  Film film(4, 4, {0, 0, 2, 2}, {"depth"});
   const Film before = film;
-  CHECK_THROWS_AS(film.merge(Film(4, 5, {0, 0, 2, 2}, {Aov::depth}), counters), std::runtime_error);
-  CHECK_THROWS_AS(film.merge(Film(4, 4, {0, 0, 2, 3}, {Aov::depth}), counters), std::runtime_error);
-  CHECK_THROWS_AS(film.merge(Film(4, 4, {0, 0, 2, 2}, {Aov::uv}), counters), std::runtime_error);
-  CHECK_THROWS_AS(film.merge(Film(4, 4, {0, 0, 2, 2}, {Aov::depth}, 100), counters),
+  CHECK_THROWS_AS(film.merge(Film(4, 5, {0, 0, 2, 2}, {"depth"}), counters), std::runtime_error);
+  CHECK_THROWS_AS(film.merge(Film(4, 4, {0, 0, 2, 3}, {"depth"}), counters), std::runtime_error);
+  CHECK_THROWS_AS(film.merge(Film(4, 4, {0, 0, 2, 2}, {"uv"}), counters), std::runtime_error);
+  CHECK_THROWS_AS(film.merge(Film(4, 4, {0, 0, 2, 2}, {"depth"}, 100), counters),
                   std::runtime_error);
   CHECK(film == before);
 }
@@ -132,7 +132,7 @@ TEST_CASE("what is too large is clamped and counted", "[film]") {
 }
 
 TEST_CASE("an AOV that is cut is counted", "[film]") {
-  Film film(1, 1, kOnePixel, {Aov::depth, Aov::position});
+  Film film(1, 1, kOnePixel, {"depth", "position"});
   Counters counters;
   Aovs aovs{};
   aovs.depth = 2, aovs.position = {1, -2, 3};
@@ -158,7 +158,7 @@ TEST_CASE("an AOV that is cut is counted", "[film]") {
 TEST_CASE("units of lengths follow the scene's size", "[film]") {
   for (const double size : {1e-12, 1e-3, 1.0, 1e4, 1e12}) {
     INFO("size " << size);
-    Film film(1, 1, kOnePixel, {Aov::depth, Aov::position, Aov::footprint}, size);
+    Film film(1, 1, kOnePixel, {"depth", "position", "footprint"}, size);
     Counters counters;
     Aovs aovs{};
     aovs.depth = Real(1e-3 * size), aovs.footprint = Real(1e-4 * size);
@@ -173,7 +173,7 @@ TEST_CASE("units of lengths follow the scene's size", "[film]") {
 }
 
 TEST_CASE("what is not finite is a black sample and counted", "[film]") {
-  Film film(1, 1, kOnePixel, {Aov::depth});
+  Film film(1, 1, kOnePixel, {"depth"});
   Counters counters;
   Aovs aovs{};
   aovs.depth = kInfinity;
@@ -189,7 +189,7 @@ TEST_CASE("what is not finite is a black sample and counted", "[film]") {
 }
 
 TEST_CASE("AOVs come in the order wanted, under their names", "[film]") {
-  Film film(1, 1, kOnePixel, {Aov::uv, Aov::samples, Aov::position, Aov::footprintTexels});
+  Film film(1, 1, kOnePixel, {"uv", "samples", "position", "footprint.texels"});
   Counters counters;
   Aovs aovs{};
   aovs.uv = {Real(0.25), Real(0.75)}, aovs.position = {1, -2, 3}, aovs.footprintTexels = 7;
@@ -200,7 +200,7 @@ TEST_CASE("AOVs come in the order wanted, under their names", "[film]") {
                                                "position.X", "position.Y", "position.Z",
                                                "footprint.texels"});
   CHECK(m.pixels == std::vector<float>{0, 0, 0, 0.25f, 0.75f, 2, 1, -2, 3, 7});
-  CHECK(std::string(name(Aov::footprintTexels)) == "footprint.texels");
+  CHECK(layerOf("footprint.texels", 1).value().name == "footprint.texels");
 }
 
 TEST_CASE("a cropped film holds its window only", "[film]") {

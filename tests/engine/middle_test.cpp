@@ -63,7 +63,7 @@ TEST_CASE("scenes are traced around their middle", "[scene]") {
 TEST_CASE("positions that people see are those of the scene's author", "[scene]") {
   const auto means = [](double at) {
     const auto scene = sceneOf(boxText(at));
-    Film film = makeFilm(*scene, 0, 0, nullptr, {Aov::position});
+    Film film = makeFilm(*scene, 0, 0, nullptr, {"position"});
     render(*scene, film, {.samples = 16, .threads = 1});
     return film.means();
   };

@@ -3,12 +3,33 @@
 // kinds of rays. All expectations are closed forms.
 #include <cmath>
 
+#include "engine/render/session.h"
 #include "images/picture.h"
+#include "support/text_scene.h"
 
 using namespace vestige;
 using namespace vestige::test;
 
 namespace {
+
+struct Quality {
+  int side;     ///< pixels
+  int samples;  ///< a pixel
+  int threads = 2;
+  BuildOptions build = {};
+};
+const Quality kFew{8, 4};
+const Quality kMany{16, 256};
+
+/// In this process: starting the program would take far longer than these pictures.
+Image renderText(const std::string& text, const Quality& q) {
+  INFO(text);
+  const auto scene = sceneOf(text, registry(), q.build);
+  Film film = makeFilm(*scene, q.side, q.side, nullptr, {});
+  render(*scene, film, {.samples = q.samples, .threads = q.threads});
+  Film::Means means = film.means();
+  return {means.width, means.height, std::move(means.channels), std::move(means.pixels), {}};
+}
 
 void checkColour(const Image& picture, Rgb expected, double tolerance) {
   CHECK(mean(picture, 0) == Approx(expected.r).epsilon(tolerance).margin(1e-9));
@@ -35,9 +56,6 @@ std::string litThrough(const std::string& what) {
          "quad { <-1, -1, 3>, 2*x, 2*y brdf lambert { diffuse 1 } }\n" +
          what;
 }
-
-const std::string kFew = "--width 8 --height 8 --spp 4";
-const std::string kMany = "--width 16 --height 16 --spp 256";
 
 /// A floor of reflectance 1 seen straight from above, and a lamp of radiance 1 above it.
 std::string floor(const std::string& lamp, const std::string& between,
@@ -70,8 +88,7 @@ TEST_CASE("a thousand coloured layers dim light by their powers", "[images][visi
   const Rgb expected{Real(std::pow(1 - 0.001, 1000)), Real(std::pow(1 - 0.0005, 1000)), 1};
   checkColour(renderText(litThrough(layers(1000, colour)), kFew), expected, 1e-4);
   // Paths decide at each layer: 4 sigma of 4096 samples.
-  checkColour(renderText(before(layers(1000, colour)), "--width 8 --height 8 --spp 64"), expected,
-              0.08);
+  checkColour(renderText(before(layers(1000, colour)), Quality{8, 64}), expected, 0.08);
 }
 
 TEST_CASE("all integrators see colours through layers", "[images][visibility]") {
@@ -93,8 +110,8 @@ TEST_CASE("the picture of many layers is the same for any number of threads",
           "[images][visibility]") {
   const std::string text = litThrough(layers(300, "rgb <0.001, 0.002, 0.003>")) +
                            "light area { <0.1, 0.1, 1>, 0.2*x, 0.2*y radiance 3 }\n";
-  const Image one = renderText(text, kFew + " --threads 1");
-  const Image two = renderText(text, kFew + " --threads 3");
+  const Image one = renderText(text, Quality{8, 4, 1});
+  const Image two = renderText(text, Quality{8, 4, 3});
   CHECK(one.pixels == two.pixels);
 }
 
@@ -108,7 +125,7 @@ TEST_CASE("a lamp that a cut-out hides stays hidden, whatever the footprint",
   for (const char* footprint : {"safe", "none"}) {
     INFO(footprint);
     const Image p = renderText(floor(lamp, cut, "path { depth 4 }"),
-                               kFew + std::string(" --footprint ") + footprint);
+                               Quality{8, 4, 2, {.footprint = footprint}});
     checkColour(p, {}, 0);
   }
 }
@@ -192,7 +209,7 @@ TEST_CASE("emission is masked by a picture of opacity", "[images][visibility]") 
       "0.4 direction 8*x width 0.5 } opacity_cutoff 0.3 } emission 2 emission_sides \"both\" }\n";
   for (const char* integrator : {"path", "particle"}) {
     INFO(integrator);
-    checkColour(renderText(text, kMany + " --integrator " + integrator), grey(1), 0.02);
+    checkColour(renderText(text, Quality{16, 256, 2, {.integrator = integrator}}), grey(1), 0.02);
   }
 }
 
@@ -204,7 +221,7 @@ TEST_CASE("camera, mirror and glass see what is visible to them", "[images][visi
                                "quad { <-1, -1, 2>, 2*x, 2*y brdf lambert { diffuse 0 } "
                                "emission 1 emission_sides \"both\" " +
                                visibility + " }\n",
-                           "--width 8 --height 8 --spp 64"),
+                           Quality{8, 64}),
                 0);
   };
   const std::string mirror =
@@ -231,7 +248,7 @@ TEST_CASE("a mirror shows what is visible to reflection", "[images][visibility]"
                            "quad { <-1, -1, -4>, 2*x, 2*y brdf lambert { diffuse 0 } emission 1 "
                            "emission_sides \"both\" " +
                                visibility + " }\n",
-                           "--width 8 --height 8 --spp 16"),
+                           Quality{8, 16}),
                 0);
   };
   CHECK(seen("") == Approx(1));

@@ -16,7 +16,7 @@ inline Picture pictureOf(const std::string& text, const std::string& integrator,
                          int threads = 2, const Registry& plugins = test::registry()) {
   const auto scene =
       test::sceneOf(text + "film { resolution <32, 32> }\nintegrator " + integrator, plugins);
-  Film film = makeFilm(*scene, 0, 0, nullptr, {Aov::albedo, Aov::elementLevel});
+  Film film = makeFilm(*scene, 0, 0, nullptr, {"albedo", "element.level"});
   RenderOptions options;
   options.samples = samples, options.threads = threads;
   render(*scene, film, options);

@@ -8,12 +8,12 @@
 
 namespace vestige::test {
 
-inline std::unique_ptr<Scene> sceneOf(const std::string& text,
-                                      const Registry& plugins = registry()) {
+inline std::unique_ptr<Scene> sceneOf(const std::string& text, const Registry& plugins = registry(),
+                                      const BuildOptions& options = {}) {
   std::vector<Schema> schemas;
   for (const Schema* s : plugins.schemas()) schemas.push_back(*s);
   lang::Result read = lang::readSceneText("test.scene", text, SchemaList(schemas), {});
-  auto scene = buildScene(read.scene, plugins, {}, read.diagnostics);
+  auto scene = buildScene(read.scene, plugins, options, read.diagnostics);
   std::string said;
   for (const Diagnostic& d : read.diagnostics.list()) said += d.message + '\n';
   INFO(said);

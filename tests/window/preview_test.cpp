@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <random>
 
 #include "app/run.h"
@@ -209,15 +210,21 @@ TEST_CASE("the element under the cursor is told, as bright as its flux makes it"
   REQUIRE(b.comes([&] { return b.preview->hovered() != nullptr; }));
   const auto i = b.preview->hovered();
   CHECK_FALSE(b.preview->inspection());  // that is another question
-  REQUIRE(i->path.seen.size() == 1);
-  const SeenElement& e = i->path.seen[0].element;
-  CHECK(i->path.seen[0].vertex == 0);
-  CHECK(e.level > 0);
-  CHECK(e.area == Approx(36 / std::pow(4, e.level)).epsilon(1e-4));
+  std::map<std::string, PathNote> notes;
+  for (const RecordedPath::Note& n : i->path.notes) {
+    CHECK(n.vertex == 0);
+    notes[n.note.name] = n.note;
+  }
+  REQUIRE(notes.size() == 5);
+  const double level = notes["element.level"].values[0], area = notes["element.area"].values[0];
+  const double flux = notes["element.flux"].values[0];
+  CHECK(level > 0);
+  CHECK(area == Approx(36 / std::pow(4, level)).epsilon(1e-4));
+  CHECK(notes["element.flux"].count == 3);
+  CHECK(notes["element.particles"].values[0] > 0);
   // The radiance of a diffuse surface: rho / pi E.
-  CHECK(e.flux.r > 0);
-  CHECK(double(i->radiance.r) ==
-        Approx(0.4 / double(kPi) * double(e.flux.r / e.area)).epsilon(1e-4));
+  CHECK(flux > 0);
+  CHECK(double(i->radiance.r) == Approx(0.4 / double(kPi) * flux / area).epsilon(1e-4));
   CHECK(b.preview->snapshot()->means.pixels[(22 * 40 + 20) * 3] ==
         Approx(i->radiance.r).epsilon(1e-4));
   b.rewrite(scene("<0.8, 0.1, 0.1>", 1));
@@ -225,13 +232,15 @@ TEST_CASE("the element under the cursor is told, as bright as its flux makes it"
   CHECK_FALSE(b.preview->hovered());
   b.preview->hover(80, 60);
   REQUIRE(b.comes([&] { return b.preview->hovered() != nullptr; }));
-  CHECK(b.preview->hovered()->path.seen.empty());  // paths see none
+  CHECK(b.preview->hovered()->path.notes.empty());  // integrator path has none
 }
 
 TEST_CASE("hasty wishes neither crash nor starve", "[window][preview]") {
   Bench b(scene("<0.8, 0.1, 0.1>", 8));
   std::mt19937 random(7);
   const std::vector<std::string> integrators = {"", "path", "distributed", "normals", "uv"};
+  std::vector<std::string> aovs = aovNames();
+  aovs.push_back("element.id");  // none of these integrators has it
   for (int i = 0; i < 300; ++i) {
     switch (random() % 8) {
       case 0:
@@ -250,7 +259,7 @@ TEST_CASE("hasty wishes neither crash nor starve", "[window][preview]") {
         break;
       case 4:
         b.wish.aovs.clear();
-        if (random() % 2) b.wish.aovs = {Aov(random() % kAovs)};
+        if (random() % 2) b.wish.aovs = {aovs[random() % aovs.size()]};
         ++b.wish.picture;
         break;
       case 5:
@@ -318,7 +327,7 @@ TEST_CASE("`vestige render` goes on from a kept picture, with the camera in hand
   const Block moved =
       withView(open->camera, open->cameraSchema, orbit(*view, Real(0.1), Real(0.2)));
   b.wish.camera = moved, ++b.wish.view;
-  b.wish.aovs = {Aov::depth}, ++b.wish.picture;
+  b.wish.aovs = {"depth"}, ++b.wish.picture;
   b.want();
   REQUIRE(b.comes([&] {
     const auto s = b.preview->snapshot();

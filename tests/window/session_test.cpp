@@ -346,14 +346,16 @@ TEST_CASE("a session: from paths to particles, whose elements refine", "[window]
   const Image particles = s.shot("7-particles");
   CHECK(difference(paths, particles, 20, 20, 600, 600) > 1e-4);
   s.move(p.left + p.zoom * 150, p.top + p.zoom * 131);
-  s.comes("element level");
+  s.comes("notes element.level");
   std::vector<int> levels;
   std::istringstream lines(s.log());
   for (std::string line; std::getline(lines, line);) {
     int level = 0;
     double flux = 0, area = 0;
-    if (std::sscanf(line.c_str(), "element level %d flux <%lf, %*f, %*f> W on an area of %lf",
-                    &level, &flux, &area) != 3)
+    if (std::sscanf(line.c_str(),
+                    "notes element.level %d, element.id %*d, element.area %lf scene units^2, "
+                    "element.flux <%lf, %*f, %*f> W",
+                    &level, &area, &flux) != 3)
       continue;
     levels.push_back(level);
     CHECK(flux > 0);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <vestige/camera.h>
 #include <vestige/footprint/deltas.h>
@@ -32,10 +33,31 @@ struct Aovs {
   /// Where the first scattering happens that is not specular: side of the square that has the
   /// footprint's area, in scene units and in texels; after it, the largest |g_j|.
   Real footprint{}, footprintTexels{}, gradient{};
-  /// Element of a radiosity solution seen: how often its patch was divided (below 0: a cluster of
-  /// patches), and a whole number that tells it from its neighbours.
-  Real elementLevel{}, elementId{};
+  /// One value for each slot that Integrator::aovs() declares, in that order; zero at first.
+  std::span<Real> own;
 };
+
+/// How an AOV goes with the size of the scene.
+enum class AovMeasure {
+  number,  ///< it does not
+  length   ///< scene units: in a scene twice as large, values and steps are twice as large
+};
+
+/// An AOV that an integrator declares: one number a sample, averaged over the pixel.
+struct AovSlot {
+  const char* name;  ///< of the layer and its channel: letters, digits and . _ -, "element.level"
+  const char* help;  ///< what the number says, in one line
+  AovMeasure measure = AovMeasure::number;
+  /// Resolution of the film's sums; for a length, in a scene of size 1. Rounded down to a power of
+  /// two. Values beyond 2^52 steps are cut.
+  double step = 0x1p-16;
+};
+/// AOVs that one integrator may declare.
+inline constexpr int kMostOwnAovs = 8;
+/// The AOVs that every integrator has. No slot may take one of these names.
+inline constexpr std::string_view kCommonAovs[] = {
+    "normal",    "albedo",           "depth",   "position", "uv", "samples",
+    "footprint", "footprint.texels", "gradient"};
 
 /// What one thread counted.
 struct Counters {
@@ -65,35 +87,39 @@ struct PathVertex {
   Vec2 texels;  ///< SceneView::texels()
   VertexDifferentials differentials;
 };
-/// An element of a radiosity solution that a path saw.
-struct SeenElement {
-  int level = 0;           ///< divisions below its patch; -1: a cluster of patches
-  std::uint32_t id = 0;    ///< as Aovs::elementId
-  Real area = 0;           ///< scene units squared
-  Rgb flux;                ///< W that arrive in it, with its share of what wider ones above it hold
-  std::uint64_t hits = 0;  ///< particles that left their flux in it and in no wider one
+
+/// One to three numbers that an integrator has to tell about a vertex, for `inspect` and the
+/// window.
+struct PathNote {
+  const char* name;  ///< "element.flux"
+  const char* unit;  ///< "W"; "" for a plain number
+  double values[3];
+  int count = 1;  ///< of values; three are a colour or a vector
 };
+
 class PathRecord {
  public:
   virtual ~PathRecord() = default;
   virtual void add(const PathVertex& vertex) = 0;
-  /// ... at the vertex that is added next.
-  virtual void saw(const SeenElement&) {}
+  /// Belongs to the vertex that is added next. Name and unit are string literals of the plugin.
+  virtual void note(const PathNote&) {}
 };
 
-/// One call of estimate(): which sample of which pixel, and where to leave results.
+/// One call of estimate(). The members that are const say which sample of which pixel is wanted;
+/// results and counts go to the others.
 struct PathContext {
   const SceneView& scene;
-  Sampler sampler;
-  Ray ray;               ///< into the scene
-  RayJacobian jacobian;  ///< of that ray, per unit of the film's and lens's random numbers; not
-                         ///< known where nobody wants a footprint and nothing is looked up over one
-  int cameraVariables = 2;            ///< 2, or 4 with a lens
-  std::uint64_t declaredSamples = 0;  ///< samples a pixel the scene asked for; 0: open ended
+  const Sampler sampler;
+  const Ray ray;  ///< into the scene
+  /// Of that ray, per unit of the film's and the lens's random numbers; zero unless a texture, an
+  /// AOV or the integrator needs it.
+  const RayJacobian jacobian;
+  const int cameraVariables = 2;            ///< 2, or 4 with a lens
+  const std::uint64_t declaredSamples = 0;  ///< samples a pixel the scene asked for; 0: open ended
   Counters& counters;
-  Aovs* aovs = nullptr;          ///< null: not wanted
-  bool wantsFootprint = false;   ///< carry differentials though no texture asks
-  PathRecord* record = nullptr;  ///< null: not wanted
+  Aovs* const aovs = nullptr;          ///< null: not wanted
+  const bool wantsFootprint = false;   ///< carry differentials though no texture asks
+  PathRecord* const record = nullptr;  ///< null: not wanted
 };
 
 /// What prepare() may use.
@@ -122,6 +148,10 @@ class Integrator {
   /// Whether estimate() needs PathContext::jacobian though nothing is looked up over a footprint.
   virtual bool usesJacobian() const noexcept { return false; }
 
+  /// AOVs beside those that every integrator has, at most kMostOwnAovs. The same as long as the
+  /// integrator lives.
+  virtual std::span<const AovSlot> aovs() const noexcept { return {}; }
+
   /// What the scene or the integrator says about samples a pixel; 0: nothing.
   virtual int samples() const noexcept { return 0; }
 };
@@ -130,12 +160,17 @@ class Integrator {
 /// ray passes through is looked up.
 inline void lastSurface(const SceneView& scene, const Surface& s, Vec3 toPrev,
                         Interaction& x) noexcept {
-  x.brdf = nullptr, x.toPrev = toPrev, x.opacity = scene.opacity(s);
+  x.brdf = nullptr;
+  x.toPrev = toPrev;
+  x.opacity = scene.opacity(s);
 }
 
 /// Fills what every integrator has to say about the first surface.
 inline void writeAovs(Aovs& aovs, const Surface& s, const Interaction& x) noexcept {
-  aovs.normal = x.frame.n, aovs.depth = s.distance, aovs.position = s.position, aovs.uv = s.uv;
+  aovs.normal = x.frame.n;
+  aovs.depth = s.distance;
+  aovs.position = s.position;
+  aovs.uv = s.uv;
 }
 
 }  // namespace vestige

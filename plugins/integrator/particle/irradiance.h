@@ -17,6 +17,15 @@ struct ElementInfo {
   std::uint32_t id = 0;  ///< 24 bits; neighbours differ
 };
 
+/// The same and more, for an inspected pixel.
+struct SeenElement {
+  int level = 0;
+  std::uint32_t id = 0;
+  Real area = 0;           ///< scene units squared
+  Rgb flux;                ///< W that arrive in it, with its share of the wider elements above it
+  std::uint64_t hits = 0;  ///< particles that left their flux in it and in no wider one
+};
+
 class Irradiance {
  public:
   Irradiance() = default;
@@ -29,7 +38,6 @@ class Irradiance {
   Rgb at(const PatchPoint& p, bool smooth) const noexcept;
   /// All zero where no light is kept.
   ElementInfo element(const PatchPoint& p) const noexcept;
-  /// The same with everything that is known of the element: for an inspected pixel.
   SeenElement seen(const PatchPoint& p) const noexcept;
 
   std::size_t leaves() const noexcept { return leaves_; }

@@ -158,9 +158,18 @@ class ParticleIntegrator final : public Integrator {
 
   bool usesJacobian() const noexcept override { return view_.wires; }
 
+  std::span<const AovSlot> aovs() const noexcept override {
+    static constexpr AovSlot kSlots[] = {
+        {"element.level",
+         "divisions of the element seen below its patch; -1: a cluster of patches"},
+        {"element.id", "a whole number that tells the element from its neighbours"}};
+    return kSlots;
+  }
+
   bool prepare(const Preparation& p) override {
     if (const int silent = silentLights(p.scene); silent > 0)
-      p.warn(std::to_string(silent) + " of the lights send no particles, as their plugins have no " +
+      p.warn(std::to_string(silent) +
+             " of the lights send no particles, as their plugins have no " +
              "emit(): integrator particle leaves them out");
     if (!save_.empty()) checkSolutionFile(save_);
     HierarchySettings settings = elements_;

@@ -11,6 +11,14 @@ namespace {
 /// Share of the radiance that is left where an edge of an element is drawn.
 constexpr Real kWire = Real(0.3);
 
+void noteElement(PathRecord& record, const SeenElement& e) {
+  record.note({"element.level", "", {double(e.level)}});
+  record.note({"element.id", "", {double(e.id)}});
+  record.note({"element.area", "scene units^2", {double(e.area)}});
+  record.note({"element.flux", "W", {double(e.flux.r), double(e.flux.g), double(e.flux.b)}, 3});
+  record.note({"element.particles", "", {double(e.hits)}});
+}
+
 }  // namespace
 
 /// A path from the eye, and the vertex where it is.
@@ -42,15 +50,14 @@ bool Viewing::look(Path& p) const noexcept {
   if (aovs) {
     writeAovs(*aovs, v.s, v.x);
     const ElementInfo e = light.element(at);
-    aovs->elementLevel = Real(e.level);
-    aovs->elementId = Real(e.id);
+    aovs->own[kElementLevel] = Real(e.level);
+    aovs->own[kElementId] = Real(e.id);
   }
-  const DiffusePart diffuse =
-      v.x.brdf ? v.x.brdf->diffuse(v.x.point) : DiffusePart{{}, true};
+  const DiffusePart diffuse = v.x.brdf ? v.x.brdf->diffuse(v.x.point) : DiffusePart{{}, true};
   const bool isDiffuse = !isBlack(diffuse.albedo);
   const bool isKept = isDiffuse && light.covers(at);
   const bool isShown = isKept && !p.gathers;
-  if (isKept && p.c.record) p.c.record->saw(light.seen(at));
+  if (isKept && p.c.record) noteElement(*p.c.record, light.seen(at));
   if (isShown) {
     const Real edges = wires && p.edge == 1 ? wire(p.c, at) : Real(1);
     p.radiance +=

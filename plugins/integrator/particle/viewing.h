@@ -8,6 +8,9 @@
 
 namespace vestige::particle {
 
+/// Slots of Aovs::own.
+enum OwnAov { kElementLevel, kElementId };
+
 enum class Show {
   smooth,    ///< irradiance interpolated between vertices
   elements,  ///< constant on each element
