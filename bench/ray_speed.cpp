@@ -77,7 +77,8 @@ std::vector<Query> raysOf(Scene& scene, int samples) {
     if (!start) return;
     PathContext context{.scene = recorded,
                         .sampler = sampler,
-                        .ray = {start->origin, start->direction, 0, kInfinity, 0, RayKind::camera},
+                        .ray = {start->origin, start->direction, 0, kInfinity, 0, RayKind::camera,
+                                view.mediaAt(start->origin)},
                         .jacobian = scene.camera().sampleDerivatives(numbers),
                         .cameraVariables = scene.camera().variables(),
                         .declaredSamples = std::uint64_t(samples),

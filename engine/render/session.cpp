@@ -88,16 +88,16 @@ void samplePixel(const Job& job, int x, int y, std::uint32_t index, Counters& co
   const auto start = cameraRay(job.camera, job.filter, sampler, x, y, job.film.width(),
                                job.film.height(), job.wantsJacobian);
   if (!start) return job.film.add(x, y, {}, aovs, counters);
-  PathContext context{
-      .scene = job.scene,
-      .sampler = sampler,
-      .ray = {start->ray.origin, start->ray.direction, 0, kInfinity, 0, RayKind::camera},
-      .jacobian = start->jacobian,
-      .cameraVariables = job.camera.variables(),
-      .declaredSamples = job.declaredSamples,
-      .counters = counters,
-      .aovs = &aovs,
-      .wantsFootprint = job.wantsFootprint};
+  PathContext context{.scene = job.scene,
+                      .sampler = sampler,
+                      .ray = {start->ray.origin, start->ray.direction, 0, kInfinity, 0,
+                              RayKind::camera, job.scene.mediaAt(start->ray.origin)},
+                      .jacobian = start->jacobian,
+                      .cameraVariables = job.camera.variables(),
+                      .declaredSamples = job.declaredSamples,
+                      .counters = counters,
+                      .aovs = &aovs,
+                      .wantsFootprint = job.wantsFootprint};
   const Rgb radiance = start->ray.weight * job.integrator.estimate(context);
   if (aovs.depth > 0) aovs.position += job.scene.middle;
   job.film.add(x, y, radiance, aovs, counters);
@@ -371,15 +371,15 @@ Rgb inspectSample(Scene& scene, const FilmShape& film, int x, int y, std::uint32
   const auto start = cameraRay(scene.camera(), PixelFilterSampler(scene.film().filter), sampler, x,
                                y, film.width, film.height, true);
   if (!start) return {};
-  PathContext context{
-      .scene = scene.view(),
-      .sampler = sampler,
-      .ray = {start->ray.origin, start->ray.direction, 0, kInfinity, 0, RayKind::camera},
-      .jacobian = start->jacobian,
-      .cameraVariables = scene.camera().variables(),
-      .declaredSamples = std::uint64_t(wantedSamples(scene.integrator(), options)),
-      .counters = counters,
-      .record = &record};
+  PathContext context{.scene = scene.view(),
+                      .sampler = sampler,
+                      .ray = {start->ray.origin, start->ray.direction, 0, kInfinity, 0,
+                              RayKind::camera, scene.view().mediaAt(start->ray.origin)},
+                      .jacobian = start->jacobian,
+                      .cameraVariables = scene.camera().variables(),
+                      .declaredSamples = std::uint64_t(wantedSamples(scene.integrator(), options)),
+                      .counters = counters,
+                      .record = &record};
   return start->ray.weight * scene.integrator().estimate(context);
 }
 

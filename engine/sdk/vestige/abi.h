@@ -27,7 +27,8 @@ extern "C" struct VestigeError {
 /// elements; Integrator::usesJacobian().
 /// SDK 6: PathRecord::saw().
 /// SDK 7: Brdf::evaluate() in place of eval() and pdf(), diffuse() in place of matt(); ScatterPoint
-/// has both refractive indices; batches; BRDFs, pigments and media inside other plugins.
+/// has both refractive indices; batches; BRDFs, pigments and media inside other plugins; rays and
+/// surfaces carry MediumStacks.
 extern "C" struct VestigePlugin {
   std::uint64_t magic;      ///< spells "VESTIGE1"
   std::uint32_t size;       ///< bytes, as the plugin saw it; fields are only ever appended

@@ -16,15 +16,17 @@ namespace vestige {
 
 /// One point where a ray met the scene: geometry only, nothing looked up yet.
 struct Surface : SurfacePoint {
-  Real distance = 0;    ///< along the ray, scene units
-  int object = -1;      ///< which placed shape: its material and its name
-  int primitive = 0;    ///< triangle, or part of an analytic shape
-  int light = -1;       ///< index into SceneView::lights() if it shines, else -1
-  int patch = -1;       ///< index into SceneView::patches()
-  Vec2 patchUv;         ///< [0,1]^2 in that patch
-  Real offset = 0;      ///< how far a new ray starts off the surface, scene units
-  bool closed = false;  ///< part of the boundary of a solid
-  Real time = 0;        ///< of the ray that met it
+  Real distance = 0;         ///< along the ray, scene units
+  int object = -1;           ///< which placed shape: its material and its name
+  int primitive = 0;         ///< triangle, or part of an analytic shape
+  int light = -1;            ///< index into SceneView::lights() if it shines, else -1
+  int patch = -1;            ///< index into SceneView::patches()
+  Vec2 patchUv;              ///< [0,1]^2 in that patch
+  Real offset = 0;           ///< how far a new ray starts off the surface, scene units
+  Real time = 0;             ///< of the ray that met it
+  std::uint32_t solid = 0;   ///< dielectric solid whose boundary it is, see MediumStack; 0: none
+  MediumStack mediaInFront;  ///< on the side of the geometric normal
+  MediumStack mediaBehind;   ///< on the other side; the same where it bounds no solid
 };
 
 /// A surface with its material looked up: what an integrator scatters at. Copying is cheap; the
@@ -59,12 +61,21 @@ class Tracer {
   virtual ~Tracer() = default;
 
   /// The first surface along the ray, opaque or not. False: none; then `surface` means nothing.
+  /// Boundaries of dielectric solids that are not there, see MediumStack, are passed by.
   /// (Filled in place: copying it would cost more than the shading of a diffuse surface.)
   virtual bool intersect(const Ray& ray, Surface& surface) const noexcept = 0;
 
   /// Share of light that gets along the ray: the product of 1 - opacity over all that shadow rays
-  /// meet, whatever the ray's own kind.
+  /// meet, whatever the ray's own kind, times what the solids on the way let through.
   virtual Rgb transmittance(const Ray& ray) const noexcept = 0;
+
+  /// The dielectric solids around a point, for rays that start at no surface: from a camera, from a
+  /// light.
+  virtual MediumStack mediaAt(Vec3 /*position*/) const noexcept { return {}; }
+  /// Share of light that gets that far through what fills the place, by Beer's law.
+  virtual Rgb mediumTransmittance(const MediumStack&, Real /*distance*/) const noexcept {
+    return grey(1);
+  }
 
   /// Extent of everything finite.
   virtual Bounds bounds() const noexcept = 0;
@@ -152,6 +163,14 @@ struct SceneView {
     return result;
   }
   Rgb transmittance(const Ray& ray) const noexcept { return tracer.transmittance(ray); }
+  MediumStack mediaAt(Vec3 position) const noexcept { return tracer.mediaAt(position); }
+  /// Share of light that gets along a ray to what it met at `distance`, or to infinity: what the
+  /// solid around the ray's origin does not absorb. Multiplies a path's throughput after each
+  /// intersect(). Its gradient is left out of footprints: they describe regions, and along an edge
+  /// absorption changes little from one side of a region to the other.
+  Rgb mediumTransmittance(const Ray& ray, Real distance) const noexcept {
+    return ray.media.isEmpty() ? grey(1) : tracer.mediumTransmittance(ray.media, distance);
+  }
   Bounds bounds() const noexcept { return tracer.bounds(); }
 
   void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint, InputBuffer& buffer,

@@ -45,8 +45,7 @@ bool Viewing::look(Path& p) const noexcept {
     aovs->elementLevel = Real(e.level);
     aovs->elementId = Real(e.id);
   }
-  const DiffusePart diffuse =
-      v.x.brdf ? v.x.brdf->diffuse(v.x.point) : DiffusePart{{}, true};
+  const DiffusePart diffuse = v.x.brdf ? v.x.brdf->diffuse(v.x.point) : DiffusePart{{}, true};
   const bool isDiffuse = !isBlack(diffuse.albedo);
   const bool isKept = isDiffuse && light.covers(at);
   const bool isShown = isKept && !p.gathers;
@@ -96,7 +95,12 @@ Real Viewing::wire(PathContext& c, const PatchPoint& at) const noexcept {
   const std::uint32_t own = light.element(at).id;
   for (const std::size_t j : {0, 1}) {
     const Ray beside{c.ray.origin + c.jacobian.dOrigin[j],
-                     normalize(c.ray.direction + c.jacobian.dDirection[j]), 0, kInfinity};
+                     normalize(c.ray.direction + c.jacobian.dDirection[j]),
+                     0,
+                     kInfinity,
+                     0,
+                     RayKind::any,
+                     c.ray.media};
     Surface s;
     ++c.counters.rays;
     if (!c.scene.intersect(beside, s) ||
