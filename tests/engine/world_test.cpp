@@ -180,7 +180,7 @@ TEST_CASE("a lamp does not shadow itself, however flat its light falls", "[world
         const auto sample = light->sample({s->position}, {u, v});
         if (!sample || sample->hit.toLight.y <= 0) continue;
         ++drawn;
-        dark += world.transmittance(shadowRay(*s, sample->hit), half, nullptr) < 1;
+        dark += world.transmittance(shadowRay(*s, sample->hit), half, nullptr).r < 1;
       }
       INFO("lamp " << lamp[0].shape.get() << ", " << lamp.size() << " of them, " << far << " away");
       CHECK(drawn > 1000);

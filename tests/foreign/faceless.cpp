@@ -44,7 +44,7 @@ class Faceless final : public Shape {
   bool isClosed() const noexcept override { return false; }
   Real area() const noexcept override { return size_ * size_; }
   AreaSample samplePoint(Vec2 u) const noexcept override {
-    const SurfacePoint s = surface(corner_ + Vec3{size_ * u.x, 0, size_ * u.y}, 0);
+    const SurfacePoint s = surface(corner_ + Vec3{size_ * u.x, 0, size_ * u.y}, {});
     return {.point = s, .du = {s.dPdu, s.dPdv}, .dNdu = {}, .pdf = 1 / area()};
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Renders scenes with the program itself, as a user would, and reads the picture back.
 #pragma once
+#include <vestige/math.h>
+
 #include <unistd.h>
 
 #include <cstdlib>
