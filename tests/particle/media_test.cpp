@@ -6,14 +6,14 @@ using namespace vestige;
 using namespace vestige::particle;
 
 TEST_CASE("particles are absorbed on their way through a solid", "[particle][dielectrics]") {
-  // A narrow beam straight down through 2 units of water onto a black floor in it, and through a
-  // sheet that the water's priority takes away.
+  // A narrow beam straight down through 2 units of water onto an almost black floor in it, and
+  // through a sheet that the water's priority takes away.
   const Solution s = solve(
       "camera pinhole { location <0, 3, -5> look_at <0, 0, 0> }\n"
       "light spot { <0, 2, 0> intensity rgb 1 point_at <0, 0, 0> radius 1 falloff 1.1 }\n"
-      "quad { <-1, 0, -1>, 2*z, 2*x brdf lambert { diffuse rgb 0 } }\n"
+      "quad { <-1, 0, -1>, 2*z, 2*x brdf lambert { diffuse rgb 1e-4 } }\n"
       "box { <-5, -1, -5>, <5, 5, 5> brdf glass { ior 1.33 absorption rgb <0.2, 0.7, 0> } }\n"
-      "box { <-4, 0.5, -4>, <4, 1, 4> brdf glass { ior 1.6 priority -1 absorption rgb 9 } }\n",
+      "box { <-3, 0.5, -3>, <3, 1, 3> brdf glass { ior 1.6 priority -1 absorption rgb 9 } }\n",
       20000, settings(Oracle::footprint));
   const Booking& b = s.booking;
   int floor = -1;
@@ -26,6 +26,6 @@ TEST_CASE("particles are absorbed on their way through a solid", "[particle][die
     CHECK(arrived == Approx(std::exp(-2 * absorption[c])).epsilon(1e-3));
     CHECK(double(b.emitted[c] + b.gained[c]) ==
           Approx(double(b.absorbed[c] + b.escaped[c] + b.lost[c])).epsilon(1e-12));
-    CHECK(b.escaped[c] == 0);
+    CHECK(double(b.escaped[c]) < 1e-3 * double(b.emitted[c]));
   }
 }
