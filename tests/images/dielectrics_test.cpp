@@ -307,23 +307,28 @@ TEST_CASE("a slab absorbs by Beer's law", "[images][dielectrics]") {
 TEST_CASE("a lamp, a floor and a camera in water", "[images][dielectrics]") {
   // Light goes down 2 units to the floor and 3 from there to the camera, through a sheet that is
   // not there: of lower priority than the water.
-  for (const char* integrator :
-       {"path { depth 2 }", "simple { depth 2 }", "distributed { depth 2 split 1 }"}) {
-    INFO(integrator);
-    const Image picture = renderText(
-        "camera orthographic { location <0, 3, 0> look_at <0, 0, 0> sky z width 0.001 }\n"
-        "film { resolution <4, 4> }\nintegrator " +
-            std::string(integrator) + "\nbox { <-9, -1, -9>, <9, 9, 9>" +
-            glass(1.33, "absorption rgb <0.1, 0.3, 0>") + "box { <-5, 0.5, -5>, <5, 1, 5>" +
-            glass(1.6, "priority -1 absorption rgb 5") +
+  const auto render = [](const std::string& camera, const std::string& integrator) {
+    return renderText(
+        "camera " + camera + "\nfilm { resolution <4, 4> }\nintegrator " + integrator +
+            "\nbox { <-9, -1, -9>, <9, 9, 9>" + glass(1.33, "absorption rgb <0.1, 0.3, 0>") +
+            "box { <-5, 0.5, -5>, <5, 1, 5>" + glass(1.6, "priority -1 absorption rgb 5") +
             "light point { <0, 2, 0> intensity rgb 1 }\n"
             "quad { <-4, 0, -4>, 8*z, 8*x brdf lambert { diffuse rgb 0.5 } }\n",
         "--spp 1");
-    const double vacuum = 0.5 / 3.14159265358979 / 4;
-    CHECK(mean(picture, 0) == Approx(vacuum * std::exp(-0.1 * 5)).epsilon(1e-3));
-    CHECK(mean(picture, 1) == Approx(vacuum * std::exp(-0.3 * 5)).epsilon(1e-3));
-    CHECK(mean(picture, 2) == Approx(vacuum).epsilon(1e-3));
-  }
+  };
+  const std::string at = " location <0, 3, 0> look_at <0, 0, 0> sky z ";
+  for (const std::string& camera :
+       {"orthographic {" + at + "width 0.001 }", "pinhole {" + at + "angle 0.01 }",
+        "thin_lens {" + at + "angle 0.01 aperture 0.001 }"})
+    for (const char* integrator :
+         {"path { depth 2 }", "simple { depth 2 }", "distributed { depth 2 split 1 }"}) {
+      INFO(camera << " " << integrator);
+      const Image picture = render(camera, integrator);
+      const double vacuum = 0.5 / 3.14159265358979 / 4;
+      CHECK(mean(picture, 0) == Approx(vacuum * std::exp(-0.1 * 5)).epsilon(1e-3));
+      CHECK(mean(picture, 1) == Approx(vacuum * std::exp(-0.3 * 5)).epsilon(1e-3));
+      CHECK(mean(picture, 2) == Approx(vacuum).epsilon(1e-3));
+    }
 }
 
 namespace {
