@@ -53,6 +53,10 @@ class Recorder final : public Tracer {
     queries_.push_back({ray, true});
     return tracer_.transmittance(ray);
   }
+  MediumStack mediaAt(Vec3 position) const noexcept override { return tracer_.mediaAt(position); }
+  Rgb mediumTransmittance(const MediumStack& media, Real distance) const noexcept override {
+    return tracer_.mediumTransmittance(media, distance);
+  }
   Bounds bounds() const noexcept override { return tracer_.bounds(); }
 
  private:

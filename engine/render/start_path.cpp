@@ -34,7 +34,8 @@ std::optional<StartedPath> startPath(const PathSource& source, int x, int y, std
   return StartedPath{
       {.scene = source.scene,
        .sampler = sampler,
-       .ray = {ray->origin, ray->direction, 0, kInfinity, time, RayKind::camera},
+       .ray = {ray->origin, ray->direction, 0, kInfinity, time, RayKind::camera,
+               source.scene.mediaAt(ray->origin)},
        .jacobian = source.wantsJacobian ? filmJacobian(source, numbers, dx, dy) : RayJacobian{},
        .cameraVariables = source.camera.variables(),
        .declaredSamples = source.declaredSamples,

@@ -106,6 +106,7 @@ bool SceneBuilder::build() {
   if (diagnostics_.hasErrors()) return false;
   impl_.commit(options_.cache ? options_.cache->world_ : nullptr);
   fillCache();
+  warnOfOpenSolids();
   if (const std::size_t n = impl_.world.dropped())
     diagnostics_.warning({},
                          fmt::format("left out {} triangles that have no area or a corner that is "
@@ -280,7 +281,9 @@ std::shared_ptr<Interface> SceneBuilder::tryOut(const Block& block) const {
                                      why);
 }
 
-Affine SceneBuilder::traced(const Affine& toWorld) const { return around(impl_.view.middle, toWorld); }
+Affine SceneBuilder::traced(const Affine& toWorld) const {
+  return around(impl_.view.middle, toWorld);
+}
 
 RayKind SceneBuilder::visibility(const Block& block, RayKind outer) {
   static const std::map<std::string, RayKind> words = {{"camera", RayKind::camera},
@@ -356,9 +359,13 @@ void SceneBuilder::place(Placement p, const Block* brdf, const Value* emission, 
   p.object = addObject(brdf, shapeBlock.world);
   if (p.object < 0) return;
   impl_.objects.push_back({shapeBlock.plugin, brdf ? brdf->plugin : "lambert", shapeBlock.span});
-  p.translucent = impl_.materials[std::size_t(impl_.objectMaterial[p.object])].isTranslucent;
+  const Material& material = impl_.materials[std::size_t(impl_.objectMaterial[p.object])];
+  p.translucent = material.isTranslucent;
+  p.isDielectric = material.isDielectric;
+  p.priority = material.priority;
   if (emission && emission->kind != Value::Kind::none)
     addEmission(p, *emission, bothSides, shapeBlock);
+  if (p.light >= 0) p.isDielectric = false;  // lamps are found by their surfaces: docs/adr/0014
   impl_.world.add(p);
 }
 
@@ -437,7 +444,8 @@ void SceneBuilder::addInputs(const Block& block, bool isNested) {
     else
       refuse(given, rows[i].name);
   }
-  if (isNested) refuse(block.find(kOpacityCutoff), kOpacityCutoff);
+  for (const char* row : {kOpacityCutoff, kPriority, kAbsorption})
+    if (isNested) refuse(block.find(row), row);
 }
 
 /// Constant or textured.
@@ -485,10 +493,32 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
     if (row.isRefractiveIndex) m.refractiveIndex = i;
   }
   for (int i = 0; i < m.inputs; ++i) evaluateInput(m, i, partToWorld);
+  if (const Value* given = block.find(kPriority)) m.priority = int(given->v[0]);
+  if (const Value* given = block.find(kAbsorption)) {
+    const InputValue a = constantInput(rgb(kAbsorption, 0), *given);
+    m.absorption = {a.v[0], a.v[1], a.v[2]};
+  }
   if (const Value* cutoff = block.find(kOpacityCutoff)) m.cutoff = Real(cutoff->v[0]);
   if (!isOpaque(m.cut(Inputs(m.constants.data()).rgb(m.opacity)))) m.isTranslucent = true;
-  if (diagnostics_.errors() == errorsBefore) m.brdf = std::move(brdf);
+  if (diagnostics_.errors() > errorsBefore) return m;
+  m.brdf = std::move(brdf);
+  m.isDielectric = m.refractiveIndex >= 0 && m.transmits();
   return m;
+}
+
+void SceneBuilder::warnOfOpenSolids() {
+  std::vector<bool> isSolid(impl_.objects.size());
+  for (int k = 1; k <= impl_.world.solids(); ++k)
+    isSolid[std::size_t(impl_.world.solid(std::uint32_t(k)).object)] = true;
+  for (std::size_t k = 0; k < impl_.objects.size(); ++k) {
+    const Material& m = impl_.materials[std::size_t(impl_.objectMaterial[k])];
+    if (isSolid[k] || (isBlack(m.absorption) && m.priority == 0)) continue;
+    diagnostics_.warning(impl_.objects[k].span,
+                         fmt::format("'{}' and '{}' do nothing here: they are for solids that "
+                                     "refract, which are closed (a mesh: watertight) and do not "
+                                     "shine",
+                                     kPriority, kAbsorption));
+  }
 }
 
 // ---------------------------------------------------------------- plugins inside others
@@ -664,7 +694,10 @@ Diagnostic& SceneBuilder::error(Span span, std::string message) {
 bool SceneBuilder::renewCamera() {
   const auto before = impl_.camera;
   addCamera();
-  if (!diagnostics_.hasErrors()) return true;
+  if (!diagnostics_.hasErrors()) {
+    impl_.findCameraMedia();
+    return true;
+  }
   impl_.camera = before;
   return false;
 }

@@ -53,6 +53,8 @@ class SceneBuilder {
   std::shared_ptr<const Shape> shapeFor(const Block& block);
   const BuildCache::KeptShape& takeShape(const BuildCache::KeptShape& kept, const Block& block);
   BuildCache::KeptShape makeShape(const Block& block);
+  /// Tells the user where the rows of a solid do nothing.
+  void warnOfOpenSolids();
   /// Leaves the cache what this build used, and nothing else.
   void fillCache();
   /// Object of a placement that wears a brdf block (null: default lambert); -1 after an error.

@@ -22,6 +22,26 @@ void append(std::vector<Parameter>& rows, std::vector<Parameter> more) {
   rows.insert(rows.end(), more.begin(), more.end());
 }
 
+/// Whether a BRDF may cover a dielectric solid.
+bool mayRefract(const Schema& brdf) {
+  const auto isIndex = [](const Parameter& p) { return p.isRefractiveIndex; };
+  const auto holdsBrdf = [](const Parameter& p) { return p.blockKind == "brdf"; };
+  return std::any_of(brdf.inputs.begin(), brdf.inputs.end(), isIndex) ||
+         std::any_of(brdf.params.begin(), brdf.params.end(), holdsBrdf);
+}
+
+std::vector<Parameter> solidRows() {
+  return {
+      integer(kPriority, 0)
+          .range(-1000, 1000)
+          .doc("where solids overlap, the one of the highest priority fills the place; of equal "
+               "ones the smaller"),
+      rgb(kAbsorption, 0)
+          .range(0, 1e12)
+          .in("1/scene unit")
+          .doc("inside a closed shape, a share exp(-absorption d) of the light gets d far")};
+}
+
 }  // namespace
 
 std::vector<Schema> engineSchemas() {
@@ -78,6 +98,7 @@ Schema withEngineRows(Schema schema) {
                                 .unset()
                                 .range(0, 1)
                                 .doc("a cut-out: opacity from here on is 1, below it 0"));
+    if (mayRefract(schema)) append(schema.params, solidRows());
   }
   if (schema.kind == "shape") {
     Parameter emission = rgb(kEmission, 0)

@@ -11,10 +11,10 @@ namespace vestige {
 /// Blocks without a plugin: film, union.
 std::vector<Schema> engineSchemas();
 
-/// A plugin's schema as the language sees it: blocks of the engine's own kinds stand where they may;
-/// inputs are texturable; a brdf has `normal_map` and `opacity` after its own inputs and
-/// `opacity_cutoff` after its parameters, a shape `emission` and a brdf inside; shapes and lights
-/// say to which rays they are visible.
+/// A plugin's schema as the language sees it: blocks of the engine's own kinds stand where they
+/// may; inputs are texturable; a brdf has `normal_map` and `opacity` after its own inputs and
+/// `opacity_cutoff` (and `priority` and `absorption`, if it may refract) after its parameters, a
+/// shape `emission` and a brdf inside; shapes and lights say to which rays they are visible.
 Schema withEngineRows(Schema schema);
 
 /// How many inputs withEngineRows() appends to a brdf: normal_map, then opacity.
@@ -31,5 +31,8 @@ inline constexpr const char* kNoImage = "no_image";
 inline constexpr const char* kNoReflection = "no_reflection";
 /// ... to the parameters of a brdf.
 inline constexpr const char* kOpacityCutoff = "opacity_cutoff";
+/// ... of a brdf that has a refractive index, or holds others that may.
+inline constexpr const char* kPriority = "priority";
+inline constexpr const char* kAbsorption = "absorption";
 
 }  // namespace vestige

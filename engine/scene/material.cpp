@@ -41,6 +41,22 @@ Vec3 bent(Vec3 n, Vec3 toPrev) noexcept {
   return kLeastCosine * toPrev + (safeSqrt(1 - sqr(kLeastCosine)) / l) * across;
 }
 
+/// Refractive indices on both sides of a surface.
+struct Sides {
+  Real inFront, behind;
+};
+/// Its own index is that of the place where it was looked up, those of other solids are means. An
+/// open surface has its own index behind it: docs/adr/0014.
+Sides indicesAt(const Material& m, const Surface& s, const Inputs& inputs,
+                const Real* indices) noexcept {
+  const Sides around{indices[s.mediaInFront.top()], indices[s.mediaBehind.top()]};
+  if (m.refractiveIndex < 0) return around;
+  const Real own = m.indexOf(inputs);
+  if (s.solid == 0) return {around.inFront, own};
+  return {s.mediaInFront.top() == s.solid ? own : around.inFront,
+          s.mediaBehind.top() == s.solid ? own : around.behind};
+}
+
 }  // namespace
 
 Lookup PlacedPigment::inside(const Lookup& outside) const noexcept {
@@ -74,6 +90,22 @@ Vec2 Material::texels() const noexcept {
   return finest;
 }
 
+Real Material::indexOf(const Inputs& evaluated) const noexcept {
+  return refractiveIndex < 0 ? Real(1) : std::max(evaluated.real(refractiveIndex), kLeastIndex);
+}
+
+bool Material::transmits() const noexcept {
+  ScatterPoint p{.toPrev = {0, 0, 1}, .inputs = Inputs(constants.data())};
+  p.etaNext = meanIndex();
+  constexpr int kTries = 64;
+  for (int k = 0; k < kTries; ++k) {
+    const Real lobe = (Real(k) + Real(0.5)) / kTries;
+    const auto s = brdf->sample(p, {lobe, {Real(0.5), Real(0.5)}});
+    if (s && s->toNext.z < 0) return true;
+  }
+  return false;
+}
+
 Rgb Material::cut(Rgb c) const noexcept {
   const auto share = [&](Real x) {
     return cutoff < 0 ? std::clamp(x, Real(0), Real(1)) : Real(x >= cutoff ? 1 : 0);
@@ -98,7 +130,8 @@ Inputs Material::evaluate(const SurfacePoint& at, const Footprint& footprint,
 }
 
 void interact(const Material& material, const Surface& surface, Vec3 toPrev,
-              const Footprint& footprint, InputBuffer& buffer, Interaction& x) noexcept {
+              const Footprint& footprint, const Real* indices, InputBuffer& buffer,
+              Interaction& x) noexcept {
   x.toPrev = toPrev;
   x.brdf = material.brdf.get();
   x.point.inputs = material.evaluate(surface, footprint, buffer);
@@ -112,11 +145,9 @@ void interact(const Material& material, const Surface& surface, Vec3 toPrev,
   x.frame = Frame::along(bent(behind ? -normal : normal, toPrev), surface.dPdu);
   x.point.toPrev = x.frame.toLocal(toPrev);
   x.point.behind = behind;
-  const Real inside = material.refractiveIndex < 0
-                          ? Real(1)
-                          : std::max(x.point.inputs.real(material.refractiveIndex), kLeastIndex);
-  x.point.etaPrev = behind ? inside : Real(1);
-  x.point.etaNext = behind ? Real(1) : inside;
+  const Sides eta = indicesAt(material, surface, x.point.inputs, indices);
+  x.point.etaPrev = behind ? eta.behind : eta.inFront;
+  x.point.etaNext = behind ? eta.inFront : eta.behind;
   x.opacity = material.isTranslucent ? material.cut(x.point.inputs.rgb(material.opacity)) : grey(1);
 }
 

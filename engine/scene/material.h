@@ -40,11 +40,19 @@ struct Material {
   std::vector<TexturedInput> textured;
   int normalMap = -1, opacity = -1;  ///< indices of these inputs
   int refractiveIndex = -1;          ///< of the inside; -1: light passes as through air, if at all
+  bool isDielectric = false;         ///< light is refracted to the far side
+  int priority = 0;                  ///< of a solid of it, against others at the same place
+  Rgb absorption;                    ///< inside such a solid, 1 per scene unit
   bool hasNormalMap = false;
   Real cutoff = -1;            ///< opacity below it is 0, else 1; below 0: it is as it is
   bool isTranslucent = false;  ///< opacity may be below 1
   bool usesFootprint = false;  ///< some input is filtered
 
+  /// Refractive index of the inside; the mean where it is textured.
+  Real meanIndex() const noexcept { return indexOf(Inputs(constants.data())); }
+  Real indexOf(const Inputs& evaluated) const noexcept;
+  /// Whether sample() ever draws a direction on the far side, with the mean of each input.
+  bool transmits() const noexcept;
   /// Texels of the finest texture, a unit of uv; <0, 0> without one.
   Vec2 texels() const noexcept;
   /// Opacity alone, for shadow rays.
@@ -57,7 +65,9 @@ struct Material {
 };
 
 /// Everything a BRDF needs at a surface, seen along toPrev [SDK: brdf.h says which way it faces].
+/// `indices`: refractive indices of the scene's solids by number; of 0, air's.
 void interact(const Material& material, const Surface& surface, Vec3 toPrev,
-              const Footprint& footprint, InputBuffer& buffer, Interaction& result) noexcept;
+              const Footprint& footprint, const Real* indices, InputBuffer& buffer,
+              Interaction& result) noexcept;
 
 }  // namespace vestige

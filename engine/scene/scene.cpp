@@ -16,6 +16,10 @@ LightHit seenFrom(const Surface& s, Vec3 from) noexcept {
 
 void Scene::Impl::commit(const std::shared_ptr<const World::Body>& before) {
   world.commit(before);
+  std::vector<const Material*> byObject;
+  for (const int m : objectMaterial) byObject.push_back(&materials[std::size_t(m)]);
+  media.build(world, byObject);
+  findCameraMedia();
   for (std::size_t i = 0; i < ownedLights.size(); ++i) {
     ownedLights[i]->setScene(world.bounds());
     lightList.push_back(ownedLights[i].get());
@@ -32,11 +36,27 @@ void Scene::Impl::commit(const std::shared_ptr<const World::Body>& before) {
   for (const int i : infinite) hasTextures |= lightList[std::size_t(i)]->traits().usesSpread;
 }
 
+void Scene::Impl::findCameraMedia() {
+  const auto ray = camera->sample({{Real(0.5), Real(0.5)}, {Real(0.5), Real(0.5)}, 1});
+  cameraOrigin = ray ? ray->origin : Vec3{};
+  cameraMedia = media.at(world, cameraOrigin);
+}
+
 Rgb Scene::Impl::transmittance(const Ray& ray) const noexcept {
-  const auto opacity = [](const void* self, const Surface& s) {
-    return static_cast<const Impl*>(self)->opacity(s);
+  if (media.isNone()) {
+    const auto opacity = [](const void* self, const Surface& s) {
+      return static_cast<const Impl*>(self)->opacity(s);
+    };
+    return world.transmittance(ray, opacity, this);
+  }
+  Media::Shadow shadow{media, world, ray.direction, ray.media, ray.tMin};
+  const std::pair<const Impl*, Media::Shadow*> both{this, &shadow};
+  const auto opacity = [](const void* context, const Surface& s) {
+    const auto& [self, way] = *static_cast<const std::pair<const Impl*, Media::Shadow*>*>(context);
+    return s.solid == 0 || way->pass(s) ? self->opacity(s) : Rgb{};
   };
-  return world.transmittance(ray, opacity, this);
+  const Rgb share = world.transmittance(ray, opacity, &both);
+  return isBlack(share) ? Rgb{} : share * shadow.transmittance(ray.tMax);
 }
 
 Rgb Scene::Impl::emitted(const Surface& s, const Receiver& r) const noexcept {

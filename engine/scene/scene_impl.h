@@ -6,6 +6,7 @@
 
 #include "engine/light/light_tree.h"
 #include "engine/scene/material.h"
+#include "engine/scene/media.h"
 #include "engine/scene/scene.h"
 #include "engine/texture/texture_store.h"
 #include "engine/trace/world.h"
@@ -16,6 +17,10 @@ struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
   SceneView view{*this, *this, *this, *this};
   std::shared_ptr<TextureStore> textures = std::make_shared<TextureStore>();
   World world;
+  Media media;
+  /// Where a pinhole camera stands, whose rays all start there, and the solids around it.
+  Vec3 cameraOrigin;
+  MediumStack cameraMedia;
   std::vector<Material> materials;
   std::vector<int> objectMaterial;                   ///< by Surface::object
   std::vector<ObjectInfo> objects;                   ///< by Surface::object
@@ -35,14 +40,23 @@ struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
 
   /// After everything was added: builds the tree, see World::commit(), and the table of lights.
   void commit(const std::shared_ptr<const World::Body>& before);
+  /// After the camera was set and the scene committed.
+  void findCameraMedia();
 
   bool intersect(const Ray& ray, Surface& surface) const noexcept override {
-    return world.intersect(ray, surface);
+    return world.intersect(ray, surface) &&
+           (surface.solid == 0 || media.follow(world, ray, surface));
   }
   Rgb transmittance(const Ray& ray) const noexcept override;
+  MediumStack mediaAt(Vec3 position) const noexcept override {
+    return position == cameraOrigin ? cameraMedia : media.at(world, position);
+  }
+  Rgb mediumTransmittance(const MediumStack& stack, Real distance) const noexcept override {
+    return media.transmittance(stack, distance);
+  }
   void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint, InputBuffer& buffer,
              Interaction& result) const noexcept override {
-    interact(material(surface), surface, toPrev, footprint, buffer, result);
+    interact(material(surface), surface, toPrev, footprint, media.indices(), buffer, result);
   }
   Rgb opacity(const Surface& s) const noexcept override { return material(s).opacityAt(s); }
   Rgb emitted(const Surface& surface, const Receiver& r) const noexcept override;

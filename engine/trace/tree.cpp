@@ -85,8 +85,7 @@ void occludePrimitive(const RTCOccludedFunctionNArguments* a) {
   auto& ray = *reinterpret_cast<RTCRay*>(a->ray);
   const int index = group.members[a->primID];
   const Item& item = (*group.items)[index];
-  if (query.layers && item.placement.translucent)
-    return gatherShape(item, index, *query.ray, *query.layers);
+  if (query.layers && item.isLayer) return gatherShape(item, index, *query.ray, *query.layers);
   if (meet(item, *query.ray, ray.tfar)) ray.tfar = -std::numeric_limits<float>::infinity();
 }
 
@@ -99,7 +98,7 @@ void filterTriangle(const RTCFilterFunctionNArguments* a) {
   const unsigned instance = a->context->instID[0];
   const int item =
       (*query.itemOfGeometry)[instance != RTC_INVALID_GEOMETRY_ID ? instance : hit.geomID];
-  if (!(*query.items)[item].placement.translucent) return;
+  if (!(*query.items)[item].isLayer) return;
   const float t = reinterpret_cast<const RTCRay*>(a->ray)->tfar;
   query.layers->add({item, int(hit.primID), Real(t), {Real(hit.u), Real(hit.v)}});
   a->valid[0] = 0;
@@ -107,7 +106,7 @@ void filterTriangle(const RTCFilterFunctionNArguments* a) {
 
 unsigned maskOf(const Item& item) noexcept {
   const RayKind kinds = item.placement.visibleTo;
-  return item.placement.translucent ? translucent(kinds) : opaque(kinds);
+  return item.isLayer ? translucent(kinds) : opaque(kinds);
 }
 
 void fillRay(RTCRay& ray, const Ray& r, unsigned mask) noexcept {
@@ -341,7 +340,7 @@ bool Tree::gather(const Ray& ray, unsigned mask, Real from, Layers& layers) cons
   for (const int k : t.unbounded) {
     const Item& item = (*t.items)[k];
     if (!(maskOf(item) & mask)) continue;
-    if (item.placement.translucent)
+    if (item.isLayer)
       gatherShape(item, k, ray, layers);
     else if (item.placement.shape->intersect(item.place.object(ray)))
       return false;

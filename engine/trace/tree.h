@@ -20,6 +20,10 @@ struct Item {
   const Triangles* triangles = nullptr;  ///< null: analytic
   bool baked = false;                    ///< the triangles are in world space already
   Bounds bounds;                         ///< world
+  std::uint32_t solid = 0;               ///< its number, if it is a dielectric solid
+  /// Shadow rays do not end there but look at it: translucent, or a solid that meets others, whose
+  /// boundary may not be there.
+  bool isLayer = false;
 };
 
 /// Which placements a ray may meet: eight bits of kinds for opaque ones, eight for translucent

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/trace/triangles.h"
 
+#include <map>
+
 #include "engine/trace/place.h"
 
 namespace vestige {
@@ -78,6 +80,32 @@ Triangles::Edges Triangles::edges(std::uint32_t triangle) const noexcept {
 
 Real Triangles::area(std::uint32_t triangle) const noexcept {
   return Real(norm(across(positions_, triangles_[triangle])) / 2);
+}
+
+bool Triangles::isWatertight() const {
+  // Corners of a seam differ in their normal or uv: one number for all at the same position.
+  std::map<std::array<Real, 3>, std::uint32_t> known;
+  std::vector<std::uint32_t> corner;
+  for (const Vec3 p : positions_) {
+    // + 0: -0 is the same place. No triangle has a corner that is not finite.
+    const Vec3 at = isFinite(p) ? p : Vec3{};
+    const std::array<Real, 3> key{at.x + 0, at.y + 0, at.z + 0};
+    corner.push_back(known.try_emplace(key, std::uint32_t(known.size())).first->second);
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges, reversed;
+  double volume = 0;  // six times that, by signed tetrahedra
+  for (const auto& c : triangles_) {
+    for (const int k : {0, 1, 2}) {
+      edges.push_back({corner[c[k]], corner[c[(k + 1) % 3]]});
+      reversed.push_back({edges.back().second, edges.back().first});
+    }
+    const Vec3 from = positions_[triangles_[0][0]];
+    volume += scalar(difference(positions_[c[0]], from), across(positions_, c));
+  }
+  std::sort(edges.begin(), edges.end());
+  std::sort(reversed.begin(), reversed.end());
+  const bool isOnce = std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+  return isOnce && edges == reversed && double(side_) * volume > 0;
 }
 
 Real Triangles::at(std::uint32_t triangle, Vec2 b, SurfacePoint& s) const noexcept {

@@ -25,6 +25,10 @@ class Triangles {
 
   Real area(std::uint32_t triangle) const noexcept;
 
+  /// Whether they bound a solid: every edge, by the positions of its ends, belongs to exactly two
+  /// triangles that run along it in opposite directions, and the normals point outwards.
+  bool isWatertight() const;
+
   /// Fills in the point with barycentric coordinates b of the second and third corner. Returns the
   /// largest component of the edges.
   Real at(std::uint32_t triangle, Vec2 b, SurfacePoint& s) const noexcept;

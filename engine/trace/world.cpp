@@ -7,6 +7,7 @@
 
 #include "engine/trace/embree.h"
 #include "engine/trace/patches.h"
+#include "engine/trace/solids.h"
 
 namespace vestige {
 namespace {
@@ -89,7 +90,8 @@ bool isSame(const TriangleMesh& a, const TriangleMesh& b) noexcept {
 /// Of all but the light. A mesh without a shape, that of a light, is made anew by each scene.
 bool isSamePlace(const Placement& a, const Placement& b) noexcept {
   if (a.shape != b.shape || a.object != b.object || a.closed != b.closed ||
-      a.translucent != b.translucent || a.visibleTo != b.visibleTo || !isSame(a.toWorld, b.toWorld))
+      a.translucent != b.translucent || a.visibleTo != b.visibleTo ||
+      a.isDielectric != b.isDielectric || a.priority != b.priority || !isSame(a.toWorld, b.toWorld))
     return false;
   return a.mesh == b.mesh || (!a.shape && a.mesh && b.mesh && isSame(*a.mesh, *b.mesh));
 }
@@ -107,7 +109,8 @@ struct World::Body {
   Patches patches;
   Bounds bounds;
   std::size_t dropped = 0, triangles = 0;
-  bool translucent = false;
+  bool hasLayers = false;
+  std::vector<Solid> solids;  ///< by number; none has number 0
 
   void fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept;
   /// Whether the ray went through one point, on an edge between two triangles.
@@ -126,7 +129,6 @@ World::Body::Body(const std::vector<Placement>& placements, const Body* before) 
   std::map<const TriangleMesh*, int> uses;
   for (const Item& item : items) ++uses[item.placement.mesh];
   for (Item& item : items) {
-    translucent |= item.placement.translucent;
     if (!item.placement.mesh) {
       item.bounds = item.placement.shape->bounds();
       if (!item.bounds.isInfinite()) item.bounds = item.place.bounds(item.bounds);
@@ -137,6 +139,11 @@ World::Body::Body(const std::vector<Placement>& placements, const Body* before) 
           item.baked ? item.triangles->bounds() : item.place.bounds(item.triangles->bounds());
     }
     if (!item.bounds.isInfinite()) bounds.add(item.bounds);
+  }
+  solids = numberSolids(items);
+  for (Item& item : items) {
+    item.isLayer = item.placement.translucent || solids[item.solid].meetsOthers;
+    hasLayers |= item.isLayer;
   }
   patches.number(items);
   tree.build(items, before ? &before->tree : nullptr);
@@ -233,7 +240,8 @@ void World::Body::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noe
   else
     fillShape(s, item, ray, hit);
   s.object = item.placement.object;
-  s.closed = item.placement.closed;
+  s.solid = item.solid;
+  s.mediaInFront = s.mediaBehind = ray.media;
   s.primitive = hit.primitive;
   s.patch = patches.index(hit.item, hit.primitive);
   s.time = ray.time;
@@ -299,7 +307,7 @@ Rgb World::transmittance(const Ray& ray, Opacity opacity, const void* context) c
   if (!impl_->body || !(ray.tMin < ray.tMax)) return grey(1);
   const Tree& tree = impl_->body->tree;
   constexpr RayKind kind = RayKind::shadow;
-  if (!impl_->body->translucent) return grey(tree.occluded(ray, opaque(kind)) ? 0 : 1);
+  if (!impl_->body->hasLayers) return grey(tree.occluded(ray, opaque(kind)) ? 0 : 1);
   Layers layers;
   if (!tree.gather(ray, everything(kind), ray.tMin, layers)) return {};
   Product product;
@@ -310,6 +318,22 @@ Rgb World::transmittance(const Ray& ray, Opacity opacity, const void* context) c
     const Real from = layers.goOn();
     tree.gather(ray, translucent(kind), from, layers);
   }
+}
+
+int World::solids() const noexcept { return impl_->body ? int(impl_->body->solids.size()) - 1 : 0; }
+const World::Solid& World::solid(std::uint32_t number) const noexcept {
+  return impl_->body->solids[number];
+}
+
+int World::boundaries(const Ray& ray, std::span<Surface> found) const noexcept {
+  Layers layers;
+  impl_->body->tree.gather(ray, translucent(ray.kind), ray.tMin, layers);
+  layers.settle();
+  std::size_t n = 0;
+  for (const TreeHit& hit : layers.hits())
+    if (n < found.size() && impl_->body->items[std::size_t(hit.item)].solid != 0)
+      impl_->fill(found[n++], ray, hit);
+  return int(n);
 }
 
 std::string World::embreeVersion() { return RTC_VERSION_STRING; }

@@ -22,6 +22,9 @@ struct Placement {
   /// Whether the surface may let light through: then transmittance() asks `opacity`.
   bool translucent = false;
   RayKind visibleTo = RayKind::any;  ///< kinds of rays that meet it
+  /// Whether it refracts: a solid then, if it is closed or its mesh is watertight.
+  bool isDielectric = false;
+  int priority = 0;  ///< of a solid, against others at the same place
 };
 
 class World {
@@ -53,9 +56,22 @@ class World {
   }
 
   /// Product of 1 - opacity(surface) over the surfaces in (tMin, tMax) that shadow rays meet; black
-  /// behind an opaque one. The same to the bit in whatever order the placements were added.
+  /// behind an opaque one. `opacity` is called in the order of t, also for the boundaries of solids
+  /// that meet others. The same to the bit in whatever order the placements were added.
   using Opacity = Rgb (*)(const void* context, const Surface& surface);
   Rgb transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept;
+
+  /// How many dielectric solids there are, numbered from 1 on as MediumStack wants it: by priority,
+  /// then smaller ones above larger ones, then later ones above earlier ones.
+  int solids() const noexcept;
+  struct Solid {
+    int object = -1;
+    Bounds bounds;
+    bool meetsOthers = false;  ///< its bounds share a point with those of another solid
+  };
+  const Solid& solid(std::uint32_t number) const noexcept;
+  /// The boundaries of solids that meet others along a ray; fills `found` and returns how many.
+  int boundaries(const Ray& ray, std::span<Surface> found) const noexcept;
 
   /// Of everything finite; empty if there is nothing.
   Bounds bounds() const noexcept;

@@ -51,7 +51,9 @@ class Simple final : public Integrator {
   static bool meet(PathContext& c, Path& p, std::uint32_t vertex) noexcept {
     for (std::uint32_t layer = 0; layer < kMaxLayers; ++layer) {
       ++c.counters.rays;
-      if (!c.scene.intersect(p.ray, p.s)) {
+      const bool isMet = c.scene.intersect(p.ray, p.s);
+      p.throughput *= c.scene.mediumTransmittance(p.ray, isMet ? p.s.distance : kInfinity);
+      if (!isMet) {
         p.radiance += p.throughput * background(c.scene, p.drawn, p.ray.direction);
         return false;
       }

@@ -28,7 +28,8 @@ namespace vestige {
 struct ScatterPoint {
   Vec3 toPrev;          ///< unit, local, z > 0
   bool behind = false;  ///< toPrev runs behind the surface's own normal: inside, if it is a solid
-  Real etaPrev = 1;     ///< refractive index on toPrev's side, >= 0.1
+  Real etaPrev = 1;     ///< refractive index on toPrev's side, >= 0.1: that of air, of the solid
+                        ///< that the surface bounds, or of another one around it
   Real etaNext = 1;     ///< ... and beyond the surface. The same unless the schema has an input
                         ///< marked .refractiveIndex()
   Inputs inputs = {};   ///< in the order of the schema

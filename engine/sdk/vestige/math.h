@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 
+#include <vestige/medium_stack.h>
+
 namespace vestige {
 
 #ifdef VESTIGE_DOUBLE
@@ -261,6 +263,15 @@ struct Bounds {
 
   bool isEmpty() const noexcept { return !(low.x <= high.x); }
   bool isInfinite() const noexcept { return !isEmpty() && !isFinite(high - low); }
+  bool contains(Vec3 p) const noexcept {
+    return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y && low.z <= p.z &&
+           p.z <= high.z;
+  }
+  /// Whether the two share a point.
+  bool meets(const Bounds& b) const noexcept {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
+           low.z <= b.high.z && b.low.z <= high.z;
+  }
   Vec3 centre() const noexcept { return Real(0.5) * (low + high); }
   Vec3 size() const noexcept { return high - low; }
   void add(Vec3 p) noexcept { low = minimum(low, p), high = maximum(high, p); }
@@ -296,6 +307,7 @@ struct Ray {
   Real tMin = 0, tMax = kInfinity;
   Real time = 0;  ///< [0,1), share of the shutter's opening that has passed
   RayKind kind = RayKind::any;
+  MediumStack media{};  ///< around the origin
   Vec3 at(Real t) const noexcept { return origin + t * direction; }
 };
 

@@ -11,12 +11,19 @@ namespace vestige {
 /// cannot make it hit the same surface again.
 inline Ray spawnRay(const Surface& s, Vec3 direction, RayKind kind = RayKind::any) noexcept {
   const Real side = dot(direction, s.geometricNormal) < 0 ? Real(-1) : Real(1);
-  return {s.position + side * s.offset * s.geometricNormal, direction, 0, kInfinity, s.time, kind};
+  const MediumStack& media = side < 0 ? s.mediaBehind : s.mediaInFront;
+  return {s.position + side * s.offset * s.geometricNormal,
+          direction,
+          0,
+          kInfinity,
+          s.time,
+          kind,
+          media};
 }
 /// A shadow ray from a surface to a point of a light. Both ends are offset from their surfaces, and
 /// the ray connects the offset points, so that neither surface shadows the other at grazing angles.
 inline Ray shadowRay(const Surface& s, const LightHit& light) noexcept {
-  const Ray r = spawnRay(s, light.toLight);
+  Ray r = spawnRay(s, light.toLight);
   if (!std::isfinite(light.distance)) return r;
   const Real off = light.offset + kRayError * (light.distance + maxAbsComponent(light.position));
   // A point light's end is offset back along the ray.
@@ -24,8 +31,9 @@ inline Ray shadowRay(const Surface& s, const LightHit& light) noexcept {
   const Vec3 away = cosine < 0 ? light.normal : cosine > 0 ? -light.normal : -light.toLight;
   const Vec3 way = light.position + off * away - r.origin;
   const Real distance = length(way);
-  if (!(distance > 0)) return {r.origin, light.toLight, 0, 0};
-  return {r.origin, way / distance, 0, distance * (1 - kRayError)};
+  r.tMax = distance > 0 ? distance * (1 - kRayError) : Real(0);
+  if (distance > 0) r.direction = way / distance;
+  return r;
 }
 /// A shadow ray of a given length without a light, as for ambient occlusion; it ends slightly
 /// before that distance.

@@ -16,15 +16,17 @@ namespace vestige {
 
 /// A hit of a ray with the scene: geometry only, without its material.
 struct Surface : SurfacePoint {
-  Real distance = 0;    ///< along the ray, scene units
-  int object = -1;      ///< index of the placed shape, which has a material and a name
-  int primitive = 0;    ///< triangle, or part of an analytic shape
-  int light = -1;       ///< index into SceneView::lights() if it shines, else -1
-  int patch = -1;       ///< index into SceneView::patches()
-  Vec2 patchUv;         ///< [0,1]^2 in that patch
-  Real offset = 0;      ///< how far a new ray starts off the surface, scene units
-  bool closed = false;  ///< part of the boundary of a solid
-  Real time = 0;        ///< time of the ray that hit it
+  Real distance = 0;         ///< along the ray, scene units
+  int object = -1;           ///< index of the placed shape, which has a material and a name
+  int primitive = 0;         ///< triangle, or part of an analytic shape
+  int light = -1;            ///< index into SceneView::lights() if it shines, else -1
+  int patch = -1;            ///< index into SceneView::patches()
+  Vec2 patchUv;              ///< [0,1]^2 in that patch
+  Real offset = 0;           ///< how far a new ray starts off the surface, scene units
+  Real time = 0;             ///< time of the ray that hit it
+  std::uint32_t solid = 0;   ///< dielectric solid whose boundary it is, see MediumStack; 0: none
+  MediumStack mediaInFront;  ///< on the side of the geometric normal
+  MediumStack mediaBehind;   ///< on the other side; the same where it bounds no solid
 };
 
 /// A surface with its evaluated material, where an integrator scatters. Copying is cheap; the
@@ -59,12 +61,21 @@ class Tracer {
   virtual ~Tracer() = default;
 
   /// The first surface along the ray, opaque or not. False: none; then `surface` means nothing.
+  /// Boundaries of dielectric solids that are not there, see MediumStack, are passed by.
   /// (Filled in place: copying it would cost more than the shading of a diffuse surface.)
   virtual bool intersect(const Ray& ray, Surface& surface) const noexcept = 0;
 
   /// Transmittance along the ray: the product of 1 - opacity over all surfaces that are visible to
-  /// shadow rays, whatever the ray's own kind.
+  /// shadow rays, whatever the ray's own kind, times that of the solids on the way.
   virtual Rgb transmittance(const Ray& ray) const noexcept = 0;
+
+  /// The dielectric solids around a point, for rays that start at no surface: from a camera, from a
+  /// light.
+  virtual MediumStack mediaAt(Vec3 /*position*/) const noexcept { return {}; }
+  /// Transmittance over a distance of the medium that fills the place, by Beer's law.
+  virtual Rgb mediumTransmittance(const MediumStack&, Real /*distance*/) const noexcept {
+    return grey(1);
+  }
 
   /// Bounds of all finite objects.
   virtual Bounds bounds() const noexcept = 0;
@@ -153,6 +164,14 @@ struct SceneView {
     return result;
   }
   Rgb transmittance(const Ray& ray) const noexcept { return tracer.transmittance(ray); }
+  MediumStack mediaAt(Vec3 position) const noexcept { return tracer.mediaAt(position); }
+  /// Share of light that gets along a ray to what it met at `distance`, or to infinity: what the
+  /// solid around the ray's origin does not absorb. Multiplies a path's throughput after each
+  /// intersect(). Its gradient is left out of footprints: they describe regions, and along an edge
+  /// absorption changes little from one side of a region to the other.
+  Rgb mediumTransmittance(const Ray& ray, Real distance) const noexcept {
+    return ray.media.isEmpty() ? grey(1) : tracer.mediumTransmittance(ray.media, distance);
+  }
   Bounds bounds() const noexcept { return tracer.bounds(); }
 
   void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint, InputBuffer& buffer,

@@ -118,12 +118,26 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
 
   Ray ray = start(*particle, size);
   ray.kind = RayKind::indirect;
+  ray.media = scene.mediaAt(ray.origin);
   Surface s;
   InputBuffer inputs;
   Interaction x;
+  // Books the difference between what the particle carried and its power now.
+  const auto absorbed = [&] {
+    const Flux left = inUnits(power, rounding);
+    add(booking.absorbed, carried);
+    add(booking.absorbed, left, -1);
+    carried = left;
+  };
   std::uint32_t layer = 0;
   for (int bounce = 0;;) {
-    if (!scene.intersect(ray, s)) return add(booking.escaped, carried);
+    const bool isMet = scene.intersect(ray, s);
+    if (!ray.media.isEmpty()) {
+      power *= scene.mediumTransmittance(ray, isMet ? s.distance : kInfinity);
+      absorbed();
+      if (isBlack(power)) return add(booking.absorbed, carried);
+    }
+    if (!isMet) return add(booking.escaped, carried);
     path.arrive(s, size);
     scene.shade(s, -ray.direction, scene.usesFootprint(s) ? path.footprint() : Footprint{}, inputs,
                 x);
@@ -158,9 +172,7 @@ void Shooting::shootOne(std::uint32_t index, Booking& booking) const {
     const std::optional<Scatter> drawn = drawScatter(x, random, Carries::flux);
     if (!drawn) return add(booking.absorbed, carried);
     power *= drawn->weight;
-    const Flux left = inUnits(power, rounding);
-    add(booking.absorbed, carried), add(booking.absorbed, left, -1);
-    carried = left;
+    absorbed();
 
     const Real most = bounce < kMortalFrom ? Real(1) : kMaxSurvival;
     const Real survival = std::min(maxComponent(drawn->weight), most);

@@ -103,7 +103,12 @@ Real Viewing::wire(PathContext& c, const PatchPoint& at) const noexcept {
   const std::uint32_t own = light.element(at).id;
   for (const std::size_t j : {0, 1}) {
     const Ray beside{c.ray.origin + c.jacobian.dOrigin[j],
-                     normalize(c.ray.direction + c.jacobian.dDirection[j]), 0, kInfinity};
+                     normalize(c.ray.direction + c.jacobian.dDirection[j]),
+                     0,
+                     kInfinity,
+                     0,
+                     RayKind::any,
+                     c.ray.media};
     Surface s;
     ++c.counters.rays;
     if (!c.scene.intersect(beside, s) ||

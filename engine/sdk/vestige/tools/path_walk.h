@@ -66,6 +66,13 @@ struct EyePath {
                          squareStrata(pending.siblings));
     pending.at = nullptr;
   }
+  /// Counts what is absorbed between the origin of the ray and the next surface, or infinity.
+  void absorb(const SceneView& scene, Real distance) noexcept {
+    if (ray.media.isEmpty()) return;
+    const Rgb share = scene.mediumTransmittance(ray, distance);
+    throughput *= share;
+    flux *= share;
+  }
   /// A discrete choice that the path survived, with its probability.
   void chance(Real probability) noexcept {
     if (footprint) footprint->chance(probability);
@@ -147,7 +154,9 @@ inline bool walk(PathContext& c, EyePath& path, Vertex& v, Rgb& radiance,
                  const WalkRules& rules = {}) noexcept {
   for (std::uint32_t layer = 0; layer < rules.maxLayers; ++layer) {
     ++c.counters.rays;
-    if (!c.scene.intersect(path.ray, v.s)) {
+    const bool isMet = c.scene.intersect(path.ray, v.s);
+    path.absorb(c.scene, isMet ? v.s.distance : kInfinity);
+    if (!isMet) {
       radiance += rules.clamp(c, path.edge, escaped(c, path));
       return false;
     }
