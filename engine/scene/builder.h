@@ -19,6 +19,14 @@ std::vector<Value> valuesFor(const std::vector<Parameter>& rows, const Block& bl
 /// One value as an evaluated input of the row's type.
 InputValue constantInput(const Parameter& row, const Value& value);
 
+/// The material of a shape that names none: a diffuse grey.
+inline Block defaultBrdf() {
+  Block b;
+  b.kind = "brdf";
+  b.plugin = "lambert";
+  return b;
+}
+
 class SceneBuilder {
  public:
   SceneBuilder(Scene& scene, const SceneDesc& description, const Registry& registry,

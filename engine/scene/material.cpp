@@ -46,7 +46,7 @@ struct Sides {
   Real inFront, behind;
 };
 /// Its own index is that of the place where it was looked up, those of other solids are means. An
-/// open surface has its own index behind it: docs/adr/0014.
+/// open surface has its own index behind it: docs/adr/0012.
 Sides indicesAt(const Material& m, const Surface& s, const Inputs& inputs,
                 const Real* indices) noexcept {
   const Sides around{indices[s.mediaInFront.top()], indices[s.mediaBehind.top()]};

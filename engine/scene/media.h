@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dielectric solids that touch, overlap or lie in one another: which boundaries are there, and what
-// fills the place. docs/adr/0014 has the decisions.
+// fills the place. docs/adr/0012 has the decisions.
 //
 // [SB02] Schmidt, Budge. Simple nested dielectrics in ray traced images. JGT 7(2), 2002.
 #pragma once
