@@ -166,7 +166,7 @@ std::string noteText(const PathNote& note) {
   std::vector<std::string> numbers;
   for (int i = 0; i < note.count; ++i) numbers.push_back(numberText(note.values[i]));
   std::string value = fmt::format("{}", fmt::join(numbers, ", "));
-  if (note.count > 1) value = "<" + value + ">";
+  if (note.count > 1) value = fmt::format("<{}>", value);
   const std::string unit = note.unit;
   return fmt::format("{} {}{}{}", note.name, value, unit.empty() ? "" : " ", unit);
 }
@@ -204,7 +204,7 @@ std::string pathText(const RecordedPath& path, const LoadedScene& loaded) {
   const auto names = numberNames(path.vertices);
   std::string t;
   for (std::size_t k = 0; k < path.vertices.size(); ++k) {
-    t += "\n" + vertexText(k + 1, path.vertices[k], names[k], loaded);
+    t += fmt::format("\n{}", vertexText(k + 1, path.vertices[k], names[k], loaded));
     if (const std::string notes = notesText(path, k); !notes.empty())
       t += fmt::format("    notes       {}\n", notes);
   }
