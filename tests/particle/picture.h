@@ -9,14 +9,18 @@ namespace vestige::particle {
 struct Picture {
   std::vector<double> grey;
   double mean = 0;
-  std::vector<double> albedo, level;
+  std::vector<double> albedo;
+  std::vector<double> level;  ///< of elements; empty but for integrator particle
 };
 
 inline Picture pictureOf(const std::string& text, const std::string& integrator, int samples,
                          int threads = 2, const Registry& plugins = test::registry()) {
   const auto scene =
       test::sceneOf(text + "film { resolution <32, 32> }\nintegrator " + integrator, plugins);
-  Film film = makeFilm(*scene, 0, 0, nullptr, {"albedo", "element.level"});
+  const bool hasElements = scene->integratorName() == "particle";
+  std::vector<std::string> aovs = {"albedo"};
+  if (hasElements) aovs.push_back("element.level");
+  Film film = makeFilm(*scene, 0, 0, nullptr, aovs);
   RenderOptions options;
   options.samples = samples, options.threads = threads;
   render(*scene, film, options);
@@ -24,7 +28,8 @@ inline Picture pictureOf(const std::string& text, const std::string& integrator,
   Picture p;
   for (std::size_t i = 0; i < m.pixels.size(); i += m.channels.size()) {
     p.grey.push_back((double(m.pixels[i]) + double(m.pixels[i + 1]) + double(m.pixels[i + 2])) / 3);
-    p.albedo.push_back(double(m.pixels[i + 3])), p.level.push_back(double(m.pixels[i + 6]));
+    p.albedo.push_back(double(m.pixels[i + 3]));
+    if (hasElements) p.level.push_back(double(m.pixels[i + 6]));
     p.mean += p.grey.back() / (32 * 32);
   }
   return p;
