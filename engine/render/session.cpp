@@ -42,7 +42,7 @@ class Rendering {
   bool prepare();
   Job job() const;
   double shareOf(double samples);
-  double remaining(double share) const;
+  double remaining(double share, double time) const;
   void report(double share, int samples, const char* phase);
   void sumUp();
   void pauseIfDue();
@@ -137,11 +137,11 @@ double Rendering::shareOf(double samples) {
   return farthest_;
 }
 
-/// Seconds, estimate; negative: not known yet.
-double Rendering::remaining(double share) const {
-  double seconds = options_.seconds > 0 ? options_.seconds - elapsed() : kInfinity;
+/// Seconds, estimated after `time`; negative: not known yet.
+double Rendering::remaining(double share, double time) const {
+  double seconds = options_.seconds > 0 ? options_.seconds - time : kInfinity;
   if ((wanted_ > 0 || adaptive_) && share > begun_)
-    seconds = std::min(seconds, elapsed() * (1 - share) / (share - begun_));
+    seconds = std::min(seconds, time * (1 - share) / (share - begun_));
   return std::isfinite(seconds) ? std::max(0.0, seconds) : -1;
 }
 
@@ -151,7 +151,7 @@ void Rendering::report(double share, int samples, const char* phase) {
   reported_ = time;
   Progress p{};
   p.elapsed = time;
-  p.remaining = remaining(share);
+  p.remaining = remaining(share, time);
   const bool isTimed = options_.seconds > 0 && (adaptive_ || wanted_ == 0);
   p.share = isTimed ? std::max(share, std::min(1.0, time / options_.seconds)) : share;
   p.samples = samples;
