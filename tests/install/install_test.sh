@@ -71,9 +71,9 @@ quietly vestige plugin new brdf soft_fur --dual --into "$work/home"
 build_plugin home/soft_fur
 render home/soft_fur soft_fur
 for kind in light camera; do
-  quietly vestige plugin new "$kind" "dual_$kind" --dual
-  build_plugin "dual_$kind"
-  render "dual_$kind" "dual_$kind"
+  quietly vestige plugin new "$kind" "twin_$kind" --dual
+  build_plugin "twin_$kind"
+  render "twin_$kind" "twin_$kind"
 done
 
 # One symbol is exported, whatever is in the library.
@@ -83,7 +83,7 @@ exported=$(nm -D --defined-only home/soft_fur/build/brdf_soft_fur.so | awk '$2 ~
 # Its own tests, where this program has them.
 if vestige plugin --help | grep -q '^ *test '; then
   quietly ctest --test-dir home/soft_fur/build --output-on-failure
-  for plugin in my_light dual_light my_camera dual_camera; do
+  for plugin in my_light twin_light my_camera twin_camera; do
     quietly ctest --test-dir "$plugin/build" --output-on-failure
   done
 else
