@@ -131,7 +131,7 @@ void addLimits(CLI::App& command, lang::Limits& limits) {
   limit("--max-blocks", limits.blocks, kMuch, "blocks of the scene, copies counted");
   limit("--max-array-elements", limits.arrayElements, kMuch, "elements of all arrays together");
   limit("--max-errors", limits.errors, 100'000, "errors after which reading stops");
-  limit("--max-nesting", limits.nesting, 10'000, "blocks and brackets inside each other");
+  limit("--max-nesting", limits.nesting, 1000, "blocks and brackets inside each other");
 }
 
 void addSceneOptions(CLI::App& command, SceneInput& input) {

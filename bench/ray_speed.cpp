@@ -54,8 +54,8 @@ class Recorder final : public Tracer {
     return tracer_.transmittance(ray);
   }
   MediumStack mediaAt(Vec3 position) const noexcept override { return tracer_.mediaAt(position); }
-  Rgb mediumTransmittance(const MediumStack& media, Real distance) const noexcept override {
-    return tracer_.mediumTransmittance(media, distance);
+  Rgb mediumTransmittance(const Ray& ray, Real distance) const noexcept override {
+    return tracer_.mediumTransmittance(ray, distance);
   }
   Bounds bounds() const noexcept override { return tracer_.bounds(); }
 

@@ -136,7 +136,8 @@ void judgeByKind(const Plugin& plugin, const Effort& effort, Judgement& j) {
     addSentence(j.unchecked, noCases(cases));
     addSentence(j.unchecked, untried());
   } else {
-    j.unchecked = "there are no tests for the methods of a " + plugin.kind +
+    j.unchecked = std::string("there are no tests for the methods of a") +
+                  (plugin.kind == "integrator" ? "n " : " ") + plugin.kind +
                   ": only its schema and its creation were checked";
   }
 }

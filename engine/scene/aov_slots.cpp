@@ -38,8 +38,8 @@ std::string whatIsWrong(std::span<const AovSlot> slots) {
       return fmt::format("declares an AOV '{}', a name that every integrator has already", name);
     if (!names.insert(name).second) return fmt::format("declares the AOV '{}' twice", name);
     if (!(slot.step > 0) || !std::isfinite(slot.step))
-      return fmt::format("declares the AOV '{}' with a step of {}; it must be above 0 and finite", name,
-                         slot.step);
+      return fmt::format("declares the AOV '{}' with a step of {}; it must be above 0 and finite",
+                         name, slot.step);
   }
   return "";
 }

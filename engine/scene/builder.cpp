@@ -35,7 +35,7 @@ bool SceneBuilder::build() {
   if (diagnostics_.hasErrors()) return false;
   impl_.commit(options_.cache ? options_.cache->world_ : nullptr);
   fillCache();
-  warnOfOpenSolids();
+  warnOfSolids();
   if (const std::size_t n = impl_.world.dropped())
     diagnostics_.warning({},
                          fmt::format("left out {} triangles that have no area or a corner that is "

@@ -62,7 +62,7 @@ class SceneBuilder {
   const BuildCache::KeptShape& takeShape(const BuildCache::KeptShape& kept, const Block& block);
   BuildCache::KeptShape makeShape(const Block& block);
   /// Tells the user where the rows of a solid do nothing.
-  void warnOfOpenSolids();
+  void warnOfSolids();
   /// Leaves the cache what this build used, and nothing else.
   void fillCache();
   /// Object of a placement that wears a brdf block (null: default lambert); -1 after an error.
@@ -79,6 +79,7 @@ class SceneBuilder {
   Material materialFor(const Block& block, const Affine& partToWorld);
   /// The inputs that a BRDF and those inside it declare; `isNested`: without the engine's own.
   void addInputs(const Block& block, bool isNested);
+  void chooseIndex(Material& m, int index);
   void evaluateInput(Material& m, int index, const Affine& partToWorld);
   NestedBrdf nestedBrdf(const Block* block);
   std::shared_ptr<const Pigment> nestedPigment(const Block& block);

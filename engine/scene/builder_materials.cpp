@@ -58,6 +58,21 @@ void SceneBuilder::evaluateInput(Material& m, int index, const Affine& partToWor
   if (index == m.opacity) m.isTranslucent = true;
 }
 
+/// A surface has one index on each side. Of several BRDFs the first that is given one counts.
+void SceneBuilder::chooseIndex(Material& m, int index) {
+  const Value* given = inputs_[std::size_t(index)].given;
+  if (m.refractiveIndex < 0) {
+    m.refractiveIndex = index;
+  } else if (const Value* before = inputs_[std::size_t(m.refractiveIndex)].given; !before) {
+    if (given) m.refractiveIndex = index;
+  } else if (given && (given->v[0] != before->v[0] || given->kind != before->kind)) {
+    diagnostics_.warning(
+        given->span,
+        "a surface has one refractive index: this one is not used, but that of the "
+        "first brdf that is given one");
+  }
+}
+
 Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld) {
   Material m;
   const int errorsBefore = diagnostics_.errors();
@@ -73,13 +88,12 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
                                   block.plugin, inputs_.size(), kMaxInputs));
     return m;
   }
-  m.batch = static_cast<const BrdfBatch*>(registry_.find("brdf", block.plugin)->entry->batch);
   m.inputs = int(inputs_.size());
-  for (int i = m.inputs - 1; i >= 0; --i) {  // of several indices the outermost counts
+  for (int i = 0; i < m.inputs; ++i) {
     const Parameter& row = *inputs_[std::size_t(i)].row;
     if (row.name == kNormalMap) m.normalMap = i;
     if (row.name == kOpacity) m.opacity = i;
-    if (row.isRefractiveIndex) m.refractiveIndex = i;
+    if (row.isRefractiveIndex) chooseIndex(m, i);
   }
   for (int i = 0; i < m.inputs; ++i) evaluateInput(m, i, partToWorld);
   if (const Value* given = block.find(kPriority)) m.priority = int(given->v[0]);
@@ -95,7 +109,11 @@ Material SceneBuilder::materialFor(const Block& block, const Affine& partToWorld
   return m;
 }
 
-void SceneBuilder::warnOfOpenSolids() {
+void SceneBuilder::warnOfSolids() {
+  if (const int most = impl_.world.solidsAtOnce(); most > MediumStack::kMost)
+    diagnostics_.warning({}, fmt::format("about {} solids that refract lie around one point: rays "
+                                         "follow {} of them, and the picture is wrong there",
+                                         most, MediumStack::kMost));
   std::vector<bool> isSolid(impl_.objects.size());
   for (int k = 1; k <= impl_.world.solids(); ++k)
     isSolid[std::size_t(impl_.world.solid(std::uint32_t(k)).object)] = true;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A BRDF with its inputs: constants, and pigments with the spaces that they live in.
 #pragma once
-#include <vestige/batch.h>
+#include <vestige/brdf.h>
 #include <vestige/integrator.h>
 #include <vestige/pigment.h>
 
@@ -34,7 +34,6 @@ struct Material {
   };
 
   std::shared_ptr<const Brdf> brdf;  ///< null: reflects nothing
-  const BrdfBatch* batch = nullptr;  ///< the same for many points
   int inputs = 0;                    ///< how many there are
   InputBuffer constants{};           ///< of every input; textured ones hold their mean
   std::vector<TexturedInput> textured;

@@ -19,14 +19,26 @@ bool isThere(const Surface& s) noexcept { return s.mediaInFront.top() != s.media
 void Media::build(const World& world, const std::vector<const Material*>& materials) {
   indices_ = {1};
   absorption_ = {Rgb{}};
+  visibleTo_ = {RayKind::any};
+  isRestricted_ = false;
   bounds_ = {};
   for (std::uint32_t k = 1; k <= std::uint32_t(world.solids()); ++k) {
     const World::Solid& solid = world.solid(k);
     const Material& m = *materials[std::size_t(solid.object)];
     indices_.push_back(m.meanIndex());
     absorption_.push_back(m.absorption);
+    visibleTo_.push_back(solid.visibleTo);
+    isRestricted_ |= solid.visibleTo != RayKind::any;
     bounds_.add(solid.bounds);
   }
+}
+
+MediumStack Media::seenBy(const MediumStack& solids, RayKind kind) const noexcept {
+  if (!isRestricted_) return solids;
+  MediumStack seen = solids;
+  for (const std::uint32_t solid : solids.solids())
+    if (solid != 0 && !shareKind(visibleTo_[solid], kind)) seen = seen.without(solid);
+  return seen;
 }
 
 void Media::addDepth(Rgb& depth, Rgb absorption, Real distance) noexcept {

@@ -19,6 +19,10 @@ class Media {
 
   /// Refractive indices by solid; of number 0, air's.
   const Real* indices() const noexcept { return indices_.data(); }
+  /// Those of the solids that rays of a kind meet.
+  MediumStack seenBy(const MediumStack& solids, RayKind kind) const noexcept;
+  /// Whether some solid is not visible to all rays.
+  bool isRestricted() const noexcept { return isRestricted_; }
   /// Beer's law in what fills the place.
   Rgb transmittance(const MediumStack& media, Real distance) const noexcept;
   /// The solids around a point, found by a ray from there. `world`: here and below that of build().
@@ -57,7 +61,9 @@ class Media {
 
   std::vector<Real> indices_{1};
   std::vector<Rgb> absorption_{Rgb{}};  ///< 1 per scene unit
-  Bounds bounds_;                       ///< of all solids
+  std::vector<RayKind> visibleTo_{RayKind::any};
+  bool isRestricted_ = false;
+  Bounds bounds_;  ///< of all solids
 };
 
 }  // namespace vestige

@@ -49,7 +49,8 @@ Rgb Scene::Impl::transmittance(const Ray& ray) const noexcept {
     };
     return world.transmittance(ray, opacity, this);
   }
-  Media::Shadow shadow{media, world, ray.direction, ray.media, ray.tMin};
+  Media::Shadow shadow{media, world, ray.direction, media.seenBy(ray.media, RayKind::shadow),
+                       ray.tMin};
   const std::pair<const Impl*, Media::Shadow*> both{this, &shadow};
   const auto opacity = [](const void* context, const Surface& s) {
     const auto& [self, way] = *static_cast<const std::pair<const Impl*, Media::Shadow*>*>(context);

@@ -44,15 +44,17 @@ struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
   void findCameraMedia();
 
   bool intersect(const Ray& ray, Surface& surface) const noexcept override {
-    return world.intersect(ray, surface) &&
-           (surface.solid == 0 || media.follow(world, ray, surface));
+    if (!media.isRestricted()) return meet(ray, surface);
+    Ray seeing = ray;
+    seeing.media = media.seenBy(ray.media, ray.kind);
+    return meet(seeing, surface);
   }
   Rgb transmittance(const Ray& ray) const noexcept override;
   MediumStack mediaAt(Vec3 position) const noexcept override {
     return position == cameraOrigin ? cameraMedia : media.at(world, position);
   }
-  Rgb mediumTransmittance(const MediumStack& stack, Real distance) const noexcept override {
-    return media.transmittance(stack, distance);
+  Rgb mediumTransmittance(const Ray& ray, Real distance) const noexcept override {
+    return media.transmittance(media.seenBy(ray.media, ray.kind), distance);
   }
   void shade(const Surface& surface, Vec3 toPrev, const Footprint& footprint, InputBuffer& buffer,
              Interaction& result) const noexcept override {
@@ -86,6 +88,10 @@ struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
   }
 
  private:
+  bool meet(const Ray& ray, Surface& surface) const noexcept {
+    return world.intersect(ray, surface) &&
+           (surface.solid == 0 || media.follow(world, ray, surface));
+  }
   const Material& material(const Surface& s) const noexcept {
     return materials[std::size_t(objectMaterial[std::size_t(s.object)])];
   }

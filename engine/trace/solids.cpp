@@ -23,21 +23,28 @@ Bounds grown(const Bounds& b) noexcept {
 }
 
 /// Marks the solids whose bounds meet those of another, by a sweep along x.
-void markMeetings(std::vector<World::Solid>& solids) {
+/// Returns the most solids whose bounds hold the centre of one of them.
+int markMeetings(std::vector<World::Solid>& solids) {
   std::vector<World::Solid*> byLow;
   for (std::size_t k = 1; k < solids.size(); ++k) byLow.push_back(&solids[k]);
   std::sort(byLow.begin(), byLow.end(),
             [](const auto* a, const auto* b) { return a->bounds.low.x < b->bounds.low.x; });
+  std::vector<int> around(byLow.size(), 1);
   for (std::size_t i = 0; i < byLow.size(); ++i)
     for (std::size_t j = i + 1;
-         j < byLow.size() && byLow[j]->bounds.low.x <= byLow[i]->bounds.high.x; ++j)
-      if (byLow[i]->bounds.meets(byLow[j]->bounds))
-        byLow[i]->meetsOthers = byLow[j]->meetsOthers = true;
+         j < byLow.size() && byLow[j]->bounds.low.x <= byLow[i]->bounds.high.x; ++j) {
+      const Bounds &a = byLow[i]->bounds, &b = byLow[j]->bounds;
+      if (!a.meets(b)) continue;
+      byLow[i]->meetsOthers = byLow[j]->meetsOthers = true;
+      around[i] += b.contains(a.centre());
+      around[j] += a.contains(b.centre());
+    }
+  return around.empty() ? 0 : *std::max_element(around.begin(), around.end());
 }
 
 }  // namespace
 
-std::vector<World::Solid> numberSolids(std::vector<Item>& items) {
+std::vector<World::Solid> numberSolids(std::vector<Item>& items, int& mostAtOnce) {
   std::map<const Triangles*, bool> watertight;
   const auto isSolid = [&](const Item& item) {
     if (!item.placement.isDielectric) return false;
@@ -55,9 +62,9 @@ std::vector<World::Solid> numberSolids(std::vector<Item>& items) {
   std::vector<World::Solid> solids(1);
   for (const auto& [rank, item] : ranked) {
     item->solid = std::uint32_t(solids.size());
-    solids.push_back({item->placement.object, grown(item->bounds)});
+    solids.push_back({item->placement.object, grown(item->bounds), item->placement.visibleTo});
   }
-  markMeetings(solids);
+  mostAtOnce = markMeetings(solids);
   return solids;
 }
 

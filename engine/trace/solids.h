@@ -9,6 +9,7 @@ namespace vestige {
 
 /// Sets Item::solid of items whose bounds are known. Returns the solids by number, the first of
 /// which stands for none.
-std::vector<World::Solid> numberSolids(std::vector<Item>& items);
+/// `mostAtOnce` receives an estimate of the most solids around one point.
+std::vector<World::Solid> numberSolids(std::vector<Item>& items, int& mostAtOnce);
 
 }  // namespace vestige

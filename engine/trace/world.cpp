@@ -114,7 +114,9 @@ struct World::Body {
 
   void fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept;
   /// Whether the ray went through one point, on an edge between two triangles.
-  bool isOnePoint(const TreeHit& a, const TreeHit& b) const noexcept;
+  int solidsAtOnce = 0;
+
+  bool isOnePoint(const TreeHit& a, const TreeHit& b, Vec3 direction) const noexcept;
 
  private:
   void addItem(Placement p);
@@ -140,7 +142,7 @@ World::Body::Body(const std::vector<Placement>& placements, const Body* before) 
     }
     if (!item.bounds.isInfinite()) bounds.add(item.bounds);
   }
-  solids = numberSolids(items);
+  solids = numberSolids(items, solidsAtOnce);
   for (Item& item : items) {
     item.isLayer = item.placement.translucent || solids[item.solid].meetsOthers;
     hasLayers |= item.isLayer;
@@ -188,7 +190,7 @@ struct World::Impl {
     Surface surface;
     for (std::size_t first = 0, k = 0; k < hits.size(); ++k) {
       shares[k] = grey(1);
-      if (!isCounted(hits, k, product.last)) {
+      if (!isCounted(hits, k, product.last, ray.direction)) {
         fill(surface, ray, hits[k]);
         shares[k] = grey(1) - clampedShare(opacity(context, surface));
       }
@@ -199,12 +201,14 @@ struct World::Impl {
     if (!hits.empty()) product.last = hits.back();
   }
   /// Whether the ray met hit k a moment before in the next triangle; `last`: of the round before.
-  bool isCounted(std::span<const TreeHit> hits, std::size_t k, const TreeHit& last) const noexcept {
+  bool isCounted(std::span<const TreeHit> hits, std::size_t k, const TreeHit& last,
+                 Vec3 direction) const noexcept {
     if (!isAtEdge(hits[k])) return false;
     constexpr Real kClose = 1 - Real(1e-3);
     for (std::size_t i = k; i-- > 0 && hits[i].t >= kClose * hits[k].t;)
-      if (body->isOnePoint(hits[i], hits[k])) return true;
-    return last.item >= 0 && last.t >= kClose * hits[k].t && body->isOnePoint(last, hits[k]);
+      if (body->isOnePoint(hits[i], hits[k], direction)) return true;
+    return last.item >= 0 && last.t >= kClose * hits[k].t &&
+           body->isOnePoint(last, hits[k], direction);
   }
 };
 
@@ -247,7 +251,7 @@ void World::Body::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noe
   s.time = ray.time;
 }
 
-bool World::Body::isOnePoint(const TreeHit& a, const TreeHit& b) const noexcept {
+bool World::Body::isOnePoint(const TreeHit& a, const TreeHit& b, Vec3 direction) const noexcept {
   if (a.item != b.item || !isAtEdge(a) || !isAtEdge(b)) return false;
   const Triangles* t = items[a.item].triangles;
   if (!t) return false;
@@ -255,7 +259,13 @@ bool World::Body::isOnePoint(const TreeHit& a, const TreeHit& b) const noexcept 
   for (const std::uint32_t i : t->indices()[std::size_t(a.primitive)])
     for (const std::uint32_t j : t->indices()[std::size_t(b.primitive)])
       shared += t->positions()[i] == t->positions()[j];
-  return shared == 2;
+  if (shared != 2) return false;
+  // By one of them in, by the other out: an edge of a solid, met twice.
+  const Vec3 own = items[a.item].baked ? direction : items[a.item].place.toObject.vector(direction);
+  const auto side = [&](const TreeHit& h) {
+    return dot(own, t->edges(std::uint32_t(h.primitive)).normal) < 0;
+  };
+  return side(a) == side(b);
 }
 
 World::World() : impl_(std::make_unique<Impl>()) {}
@@ -320,6 +330,7 @@ Rgb World::transmittance(const Ray& ray, Opacity opacity, const void* context) c
   }
 }
 
+int World::solidsAtOnce() const noexcept { return impl_->body ? impl_->body->solidsAtOnce : 0; }
 int World::solids() const noexcept { return impl_->body ? int(impl_->body->solids.size()) - 1 : 0; }
 const World::Solid& World::solid(std::uint32_t number) const noexcept {
   return impl_->body->solids[number];

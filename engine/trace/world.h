@@ -67,8 +67,11 @@ class World {
   struct Solid {
     int object = -1;
     Bounds bounds;
+    RayKind visibleTo = RayKind::any;
     bool meetsOthers = false;  ///< its bounds share a point with those of another solid
   };
+  /// An estimate of the most solids around one point.
+  int solidsAtOnce() const noexcept;
   const Solid& solid(std::uint32_t number) const noexcept;
   /// The boundaries of solids that meet others along a ray; fills `found` and returns how many.
   int boundaries(const Ray& ray, std::span<Surface> found) const noexcept;

@@ -92,8 +92,13 @@ class Mix final : public Brdf {
   }
 
   Real etaScale(const ScatterPoint& p, Vec3 toNext) const noexcept override {
-    // Transmitting parts agree on the surface's indices; use one with a share.
-    const int i = partOf(p, 0).chance > 0 ? 0 : 1;
+    if (!(toNext.z < 0)) return 1;
+    // Of the part that lets light pass there; if none has a value, of a specular one.
+    const auto passes = [&](int i) {
+      return partOf(p, i).chance > 0 &&
+             !isBlack(parts_[i].brdf->evaluate(parts_[i].at(p), toNext).fCos);
+    };
+    const int i = passes(0) ? 0 : passes(1) ? 1 : partOf(p, 0).chance > 0 ? 0 : 1;
     return parts_[i].brdf->etaScale(parts_[i].at(p), toNext);
   }
 

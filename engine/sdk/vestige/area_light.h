@@ -50,6 +50,7 @@ class AreaLight : public Light {
     if (!(distance > 0)) return std::nullopt;
     std::optional<LightSample> s(std::in_place);
     s->hit = {r.position, way / distance, distance, position, frame_.n, at};
+    s->hit.offset = offset_;
     s->radiance = eval(s->hit);
     s->pdf = AreaLight::pdf(r, s->hit);
     if (!(s->pdf > 0) || !std::isfinite(s->pdf)) s.reset();
@@ -139,8 +140,9 @@ class AreaLight : public Light {
 
   Vec3 centre_;
   Mat3x2 plane_{};
-  Frame frame_{};  ///< orthonormal: s along the plane's s, n the side that shines
-  Real area_ = 0;  ///< world, scene units squared
+  Frame frame_{};    ///< orthonormal: s along the plane's s, n the side that shines
+  Real area_ = 0;    ///< world, scene units squared
+  Real offset_ = 0;  ///< LightHit::offset
   TriangleMesh mesh_;
 };
 
@@ -178,6 +180,7 @@ inline void AreaLight::place(const Affine& toWorld, Vec3 centre, Vec3 s, Vec3 t)
   frame_ = Frame::along(normalize(across), plane_.c[0]);
   const Disk middle = outline({Real(0.5), Real(0.5)});
   area_ = length(across) * std::abs(cross(middle.du[0], middle.du[1]));
+  offset_ = kRayError * std::max(maxAbsComponent(plane_.c[0]), maxAbsComponent(plane_.c[1]));
   mesh_ = {};
   const auto add = [&](Vec2 at) {
     mesh_.positions.push_back(world(at));

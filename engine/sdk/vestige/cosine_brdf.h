@@ -44,7 +44,8 @@ class CosineBrdf : public Brdf {
     const Frame a = Frame::around(p.toPrev), b = Frame::around(toNext);
     const Dual f = self().shape(p, moving(p.toPrev, a.s, a.t, 0), moving(toNext, b.s, b.t, 2));
     const auto slope = [&](int lane) { return f.d[lane] / f.v; };
-    return {slope(0) * a.s + slope(1) * a.t, slope(2) * b.s + slope(3) * b.t};
+    const LogGradient g{slope(0) * a.s + slope(1) * a.t, slope(2) * b.s + slope(3) * b.t};
+    return isFinite(g.dPrev) && isFinite(g.dNext) ? g : LogGradient{};  // both at the horizon
   }
 
  private:

@@ -3,12 +3,12 @@
 // type, and gets both derivatives by forward-mode differentiation. The class derives from
 // DualBrdf<Itself>. Besides evaluate() and sample() (which may call direction()) it defines:
 //
+// clang-format off
 //     template <class T>   // the direction of one lobe, for numbers that do not end the path
-//     TVec3<T> direction(const ScatterPoint& p, const TVec3<T>& toPrev, Real lobe,
-//                        const TVec2<T>& u) const noexcept;
-//     template <class T> // log of the luminance of f; called only where f > 0 T logValue(const
-//     ScatterPoint& p, const TVec3<T>& toPrev,
-//                const TVec3<T>& toNext) const noexcept;
+//     TVec3<T> direction(const ScatterPoint& p, const TVec3<T>& toPrev, Real lobe, const TVec2<T>& u) const noexcept;
+//     template <class T>   // log of the luminance of f; called only where f > 0
+//     T logValue(const ScatterPoint& p, const TVec3<T>& toPrev, const TVec3<T>& toNext) const noexcept;
+// clang-format on
 #pragma once
 #include <vestige/brdf.h>
 #include <vestige/dual.h>

@@ -2,16 +2,18 @@
 // Base class of lights that write their sampling routine and factor once, as templates, and inherit
 // all derivatives.
 //
+// clang-format off
 //     class Ball final : public DualLight<Ball> {
 //      public:
 //       template <class T>   // from the receiver to the light, of any length, as sample() draws it
-//       TVec3<T> way(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
-//       template <class T> // log of the factor of LightLogGradient; called only where sample()
-//       returns a sample T logFactor(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
-//       template <class T> // what emit() starts; the direction of any length TRay<T>
-//       particle(const TVec2<T>& point, const TVec2<T>& direction) const noexcept; ... // and
-//       sample(), pdf(), eval(), emit(), power() as in light.h
+//       TVec3<T> toLight(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
+//       template <class T>   // log of the factor of LightLogGradient; called only where there is a sample
+//       T logFactor(const TVec3<T>& from, const TVec2<T>& u) const noexcept;
+//       template <class T>   // what emit() starts; the direction of any length
+//       TRay<T> particle(const TVec2<T>& point, const TVec2<T>& direction) const noexcept;
+//       ...                  // and sample(), pdf(), eval(), emit(), power() as in light.h
 //     };
+// clang-format on
 //
 // A light that emits no particles omits particle() and emit().
 #pragma once
@@ -25,8 +27,8 @@ class DualLight : public Light {
  public:
   LightJacobian sampleDerivatives(const Receiver& r, Vec2 u) const noexcept override {
     LightJacobian j;
-    const TVec3<Dual> byU = normalize(self().way(constant<Dual>(r.position), numbers(u)));
-    const TVec3<Dual> byFrom = normalize(self().way(position(r), still(u)));
+    const TVec3<Dual> byU = normalize(self().toLight(constant<Dual>(r.position), numbers(u)));
+    const TVec3<Dual> byFrom = normalize(self().toLight(position(r), still(u)));
     if (!traits().isDelta) j.du = {derivative(byU, 0), derivative(byU, 1)};
     for (int k = 0; k < 3; ++k) j.dFrom.c[k] = derivative(byFrom, k);
     return j;

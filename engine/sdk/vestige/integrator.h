@@ -17,9 +17,8 @@
 /// Said once, true of every method:
 ///   * All random numbers come from the Sampler of the PathContext: the estimate is a pure function
 ///     of (pixel, sample index, seed), whichever thread asks.
-///   * estimate() is thread-safe and noexcept and allocates nothing; prepare() runs once, on the
-///   main
-///     thread, and may use threads of its own.
+///   * estimate() is thread-safe and noexcept and allocates nothing. prepare() runs once, on the
+///     main thread; it may use threads of its own.
 ///   * An integrator returns whatever it finds; the film refuses and counts what is not finite.
 namespace vestige {
 

@@ -14,7 +14,7 @@ namespace vestige {
 class MediumStack {
  public:
   /// Of more solids around one point, those with the smallest numbers are left out.
-  static constexpr int kMost = 6;
+  static constexpr int kMost = 12;
 
   /// The solid that fills the place; 0: none, so air.
   std::uint32_t top() const noexcept { return solids_[0]; }
@@ -24,6 +24,9 @@ class MediumStack {
       if (s == solid) return true;
     return false;
   }
+
+  /// All of them, descending, then zeros.
+  const std::array<std::uint32_t, kMost>& solids() const noexcept { return solids_; }
 
   /// The stack beyond a boundary of the solid: inside of it, or outside.
   MediumStack with(std::uint32_t solid) const noexcept {

@@ -58,9 +58,9 @@ inline bool isOpaque(Rgb opacity) noexcept {
 enum class Carries { radiance, flux };
 
 /// The receiver at a surface.
-inline Receiver receiverAt(const Surface& s, const Interaction& x, Real time = 0,
-                           int medium = -1) noexcept {
-  return {s.position, x.frame.n, time, medium};
+inline Receiver receiverAt(const Surface& s, const Interaction& x) noexcept {
+  const bool isFront = dot(x.toPrev, s.geometricNormal) >= 0;
+  return {s.position, x.frame.n, s.time, (isFront ? s.mediaInFront : s.mediaBehind).top()};
 }
 
 /// One drawn continuation of a path, in world space.

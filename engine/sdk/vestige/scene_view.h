@@ -73,9 +73,7 @@ class Tracer {
   /// light.
   virtual MediumStack mediaAt(Vec3 /*position*/) const noexcept { return {}; }
   /// Transmittance over a distance of the medium that fills the place, by Beer's law.
-  virtual Rgb mediumTransmittance(const MediumStack&, Real /*distance*/) const noexcept {
-    return grey(1);
-  }
+  virtual Rgb mediumTransmittance(const Ray&, Real /*distance*/) const noexcept { return grey(1); }
 
   /// Bounds of all finite objects.
   virtual Bounds bounds() const noexcept = 0;
@@ -170,7 +168,7 @@ struct SceneView {
   /// intersect(). Its gradient is left out of footprints: they describe regions, and along an edge
   /// absorption changes little from one side of a region to the other.
   Rgb mediumTransmittance(const Ray& ray, Real distance) const noexcept {
-    return ray.media.isEmpty() ? grey(1) : tracer.mediumTransmittance(ray.media, distance);
+    return ray.media.isEmpty() ? grey(1) : tracer.mediumTransmittance(ray, distance);
   }
   Bounds bounds() const noexcept { return tracer.bounds(); }
 
