@@ -371,3 +371,28 @@ TEST_CASE("one and two threads render the same nested solids", "[images][dielect
   CHECK(different == 0);
   CHECK(mean(one, 1) > 0.01);
 }
+
+TEST_CASE("ten solids in one another are white in a white furnace", "[images][dielectrics]") {
+  std::string text =
+      "camera pinhole { location <0, 0, -6> look_at 0 angle 20 }\nfilm { resolution <16, 16> }\n"
+      "light environment { radiance rgb 1 }\nintegrator path { depth 400 }\n";
+  for (int k = 1; k <= 10; ++k)
+    text += "sphere { 0, " + std::to_string(k / 10.0) + " brdf glass { ior " +
+            std::to_string(1.2 + 0.05 * k) + " } }\n";
+  CHECK(mean(renderText(text, "--spp 64"), 1) == Approx(1).epsilon(5e-3));
+}
+
+TEST_CASE("a solid that shadow rays do not meet absorbs none of them", "[images][dielectrics]") {
+  const auto scene = [](const std::string& hidden) {
+    return "camera orthographic { location <0, 0.5, 0> look_at 0 sky z width 0.1 }\n"
+           "film { resolution <4, 4> }\nintegrator path { depth 2 }\n"
+           "light distant { direction <0, -1, 0> irradiance rgb pi }\n"
+           "plane { y, 0 brdf lambert { diffuse rgb 1 } }\n" +
+           hidden;
+  };
+  const std::string box =
+      "box { <-5, -1, -5>, <5, 1, 5> brdf glass { ior 1.0001 absorption rgb 0.2 ";
+  // The camera is inside, half a unit above the floor: absorption once, of what the eye sees.
+  const double seen = mean(renderText(scene(box + "} no_shadow }\n"), "--spp 1"), 1);
+  CHECK(seen == Approx(std::exp(-0.2 * 0.5)).epsilon(2e-3));
+}
