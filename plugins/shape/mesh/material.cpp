@@ -160,10 +160,10 @@ void Converter::gltf(MeshPart& part) {
   aiString mode;
   from_.Get(AI_MATKEY_GLTF_ALPHAMODE, mode);
   const bool isMask = std::string(mode.C_Str()) == "MASK";
-  if (isMask || std::string(mode.C_Str()) == "BLEND")
-    setData(*b, "opacity", colours, base.a, "a");
+  if (isMask || std::string(mode.C_Str()) == "BLEND") setData(*b, "opacity", colours, base.a, "a");
   if (isMask)
-    set(*b, "opacity_cutoff", numberValue(std::clamp(number("$mat.gltf.alphaCutoff", 0.5), 0., 1.)));
+    set(*b, "opacity_cutoff",
+        numberValue(std::clamp(number("$mat.gltf.alphaCutoff", 0.5), 0., 1.)));
   part.brdf = b;
   part.emission = emission(number("$mat.emissiveIntensity", 1));
 }
