@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Path tracing (Kajiya, The rendering equation, SIGGRAPH 1986) in its shortest form, to read first.
-// Estimates the same radiance as `path`: at each vertex the emission that the ray met and the
-// direct light, both weighted by multiple importance sampling (direct_light.h).
+// Path tracing (Kajiya, The rendering equation, SIGGRAPH 1986) in its shortest form: at each vertex
+// emission and direct light, both weighted by multiple importance sampling (direct_light.h).
 #include <vestige/plugin.h>
 #include <vestige/tools/direct_light.h>
 #include <vestige/tools/layers.h>
@@ -53,11 +52,9 @@ class Simple final : public Integrator {
       ++c.counters.rays;
       const bool isMet = c.scene.intersect(p.ray, p.s);
       p.throughput *= c.scene.mediumTransmittance(p.ray, isMet ? p.s.distance : kInfinity);
-      if (!isMet) {
-        p.radiance += p.throughput * background(c.scene, p.drawn, p.ray.direction);
-        return false;
-      }
-      p.radiance += p.throughput * metLight(c.scene, p.s, p.drawn);
+      p.radiance += p.throughput * (isMet ? metLight(c.scene, p.s, p.drawn)
+                                          : background(c.scene, p.drawn, p.ray.direction));
+      if (!isMet) return false;
       c.scene.shade(p.s, -p.ray.direction, {}, p.inputs, p.x);
       const Passage passage =
           meetLayer(c.sampler, vertex, layer, c.sampler.index(), p.x.opacity, p.throughput);
