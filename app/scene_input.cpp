@@ -126,7 +126,12 @@ void addLimits(CLI::App& command, lang::Limits& limits) {
   limit("--max-include-depth", limits.includeDepth, 10'000, "includes inside includes");
   limit("--max-macro-depth", limits.macroDepth, 100'000, "macro calls inside macro calls");
   limit("--max-loop-iterations", limits.loopIterations, kMuch, "turns of all loops together");
-  limit("--max-tokens", limits.expandedTokens, kMuch, "words read, each turn of a loop counted");
+  limit("--max-tokens", limits.expandedTokens, kMuch,
+        "steps of reading: words, each turn of a loop counted, and other work");
+  const auto setMemory = [&limits](std::int64_t n) { limits.memory = n << 20; };
+  addInteger(command, "--max-memory", 1, kMuch, setMemory,
+             fmt::format("MB that reading the text may take ({})", limits.memory >> 20))
+      ->group("Limits on hostile scenes");
   limit("--max-string-length", limits.stringLength, kMuch, "bytes of one string");
   limit("--max-blocks", limits.blocks, kMuch, "blocks of the scene, copies counted");
   limit("--max-array-elements", limits.arrayElements, kMuch, "elements of all arrays together");

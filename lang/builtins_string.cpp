@@ -12,11 +12,6 @@ namespace {
 /// Widest field and most digits that str() lays out: a double has no more than 1074 of them.
 constexpr int kWidest = 1100;
 
-/// Shorter strings are not counted: the limits on array elements and names bound them.
-constexpr std::size_t kShortText = 256;
-/// Limit of all strings together, as a multiple of the length limit of one string.
-constexpr std::size_t kLongestTexts = 256;
-
 /// C's "%*.*f": negative width fills with zeros, negative precision means 6.
 std::string layout(double x, int width, int digits) {
   const bool zeros = width < 0;
@@ -28,24 +23,21 @@ std::string layout(double x, int width, int digits) {
   return s;
 }
 
-Datum limited(const Call& c, std::string s) {
+/// Adds to a string that a call builds.
+void append(const Call& c, std::string& s, const std::string& part) {
   const std::size_t most = c.context.options.limits.stringLength;
-  if (s.size() > most)
+  if (s.size() + part.size() > most)
     c.context.reporter.stop(c.span, "this string is longer than " + std::to_string(most) +
                                         " characters: --max-string-length raises the limit");
-  if (s.size() < kShortText) return textDatum(std::move(s));
-  const Share share(c.context.longText, std::int64_t(s.size()));
-  if (*c.context.longText > std::int64_t(kLongestTexts * most))
-    c.context.reporter.stop(c.span, "the strings of this scene take more than " +
-                                        std::to_string(kLongestTexts * most) +
-                                        " characters: --max-string-length raises the limit");
-  return TextPtr(new std::string(std::move(s)), [share](const std::string* p) { delete p; });
+  s += part;
 }
+
+Datum made(const Call& c, std::string s) { return c.context.budget.text(c.span, std::move(s)); }
 
 Datum concat(const Call& c) {
   std::string s;
-  for (std::size_t i = 0; i < c.args.size(); ++i) s += c.text(i);
-  return limited(c, std::move(s));
+  for (std::size_t i = 0; i < c.args.size(); ++i) append(c, s, c.text(i));
+  return made(c, std::move(s));
 }
 
 /// vstr(n, vector, separator, width, digits): the first n components; a number fills all.
@@ -54,9 +46,11 @@ Datum vectorText(const Call& c) {
   if (n < 2 || n > 5) return c.complain(0, "vstr() writes 2 to 5 components, found " + shortest(n));
   const Numbers v = c.vector(1);
   std::string s;
-  for (int i = 0; i < n; ++i)
-    s += (i ? c.text(2) : "") + layout(v.at(i), c.integer(3), c.integer(4));
-  return limited(c, std::move(s));
+  for (int i = 0; i < n; ++i) {
+    if (i > 0) append(c, s, c.text(2));
+    append(c, s, layout(v.at(i), c.integer(3), c.integer(4)));
+  }
+  return made(c, std::move(s));
 }
 
 Datum part(const Call& c) {
@@ -66,7 +60,7 @@ Datum part(const Call& c) {
     return c.complain(1, "substr() from " + shortest(from) + ", " + shortest(length) +
                              " long, reaches outside a string of " + shortest(double(s.size())) +
                              " characters");
-  return textDatum(s.substr(std::size_t(from - 1), std::size_t(length)));
+  return made(c, s.substr(std::size_t(from - 1), std::size_t(length)));
 }
 
 Datum character(const Call& c) {
@@ -83,7 +77,7 @@ Datum changeCase(const Call& c) {
     if (toUpper && letter >= 'a' && letter <= 'z') letter = char(letter - 'a' + 'A');
     if (!toUpper && letter >= 'A' && letter <= 'Z') letter = char(letter - 'A' + 'a');
   }
-  return textDatum(std::move(s));
+  return made(c, std::move(s));
 }
 
 Datum numberOf(const Call& c) {
@@ -113,7 +107,7 @@ std::vector<Builtin> stringBuiltins() {
       {"concat", "s+", concat},
       {"file_exists", "s", fileExists, false},
       {"str", "nnn",
-       [](const Call& c) { return textDatum(layout(c.number(0), c.integer(1), c.integer(2))); }},
+       [](const Call& c) { return made(c, layout(c.number(0), c.integer(1), c.integer(2))); }},
       {"strcmp", "ss",
        [](const Call& c) -> Datum {
          const int order = c.text(0).compare(c.text(1));

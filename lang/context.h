@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 
+#include "lang/budget.h"
 #include "lang/lang.h"
 #include "lang/lexer.h"
 #include "lang/report.h"
@@ -19,21 +20,22 @@ inline constexpr int kDeepestNesting = 1000;
 
 struct Context {
   Context(const Options& o, Sources& t, Diagnostics& d)
-      : options(o), sources(t), reporter(d, o.limits.errors) {}
+      : options(o), sources(t), reporter(d, o.limits.errors), budget(o.limits, reporter) {
+    sources.countOn(budget.bytes());
+  }
 
   const Options& options;
   Sources& sources;
-  Names names;
   Reporter reporter;
-  Symbols symbols;
+  Budget budget;
+  Names names{budget.bytes()};
+  Symbols symbols{budget.bytes()};
   double version = 3.7;  ///< set by #version, returned by `version`; has no other effect
   std::vector<std::uint32_t> streams;  ///< states of rand(), by what seed() returned
   int nesting = 0;          ///< depth of braces, parentheses and calls: bounds our own stack
   std::int64_t blocks = 0;  ///< number created so far, copies included
   Total elements =
       std::make_shared<std::atomic<std::int64_t>>(0);  ///< elements in live arrays and lists
-  Total longText = std::make_shared<std::atomic<std::int64_t>>(0);  ///< bytes in live long strings
-  std::int64_t steps = 0;  ///< tokens read and functions evaluated
   std::function<bool(const std::string&)> fileExists;
   /// The file in the include paths that declares a name, or "".
   std::function<std::string(const std::string&)> declaredIn;
@@ -54,14 +56,7 @@ struct Context {
                             std::to_string(options.limits.arrayElements) +
                             " elements: --max-array-elements raises the limit");
   }
-  /// Counts work, so that every text ends.
-  void step(const Span& span) {
-    if (++steps > options.limits.expandedTokens)
-      reporter.stop(span, "this scene takes more than " +
-                              std::to_string(options.limits.expandedTokens) +
-                              " steps to read: is a loop or a macro endless? --max-tokens raises "
-                              "the limit");
-  }
+  void step(const Span& span, std::int64_t count = 1) { budget.step(span, count); }
 };
 
 /// Increases the nesting depth during its lifetime.

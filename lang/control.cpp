@@ -9,11 +9,9 @@ namespace vestige::lang {
 
 /// The #end of the construct that the directive at this index belongs to, or the end of the text.
 std::uint32_t Directives::endOf(std::uint32_t part) {
-  const auto& tokens = stream_.frame().list->tokens;
-  while (tokens[part].kind == Token::Kind::directive && *tokens[part].text != "end" &&
-         tokens[part].jump > part)
-    part = tokens[part].jump;
-  return part;
+  const auto& closings = stream_.frame().list->closings;
+  const auto closing = closings.find(part);
+  return closing == closings.end() ? part : closing->second;
 }
 
 void Directives::jumpBehind(std::uint32_t index) {
@@ -152,8 +150,12 @@ void Directives::forLoop(const Token& directive) {
     if (given < 2) parser_.expressions().unexpected("',' and the bounds: #for (I, 1, 10)");
     parser_.expressions().expect(")", open, "(");
     if (stream_.frames().size() != depth) return;
-    OpenDirective loop{OpenDirective::Kind::forLoop, first, context_.symbols.local(name.text),
-                       bounds[1], bounds[2]};
+    OpenDirective loop{OpenDirective::Kind::forLoop,
+                       first,
+                       context_.symbols.local(name.text),
+                       bounds[1],
+                       bounds[2],
+                       stream_.frame().at};
     *loop.counter = {Numbers(bounds[0]), name.span};
     if (isWithin(loop, directive.span))
       stream_.frame().open.push_back(std::move(loop));
@@ -251,16 +253,7 @@ void Directives::end(const Token&) {
   } else if (top.kind == OpenDirective::Kind::forLoop) {
     if (Numbers* n = std::get_if<Numbers>(&top.counter->value)) n->v[0] += top.step;
     again = isWithin(top, stream_.frame().token(top.first).span);
-    // Resume behind the head, which ends at the ')' matching its first '('.
-    if (again) {
-      std::uint32_t i = top.first + 1;
-      for (int depth = 0; i < at; ++i) {
-        const Token& t = stream_.frame().token(i);
-        if (t.is("(")) ++depth;
-        if (t.is(")") && --depth == 0) break;
-      }
-      jumpBehind(i);
-    }
+    if (again) jumpBehind(top.body - 1);
   }
   if (again) return;
   stream_.frame().open.pop_back();

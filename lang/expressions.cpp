@@ -314,7 +314,7 @@ ExprPtr ExpressionParser::primary() {
   }
   if (t.kind == Token::Kind::string) {
     stream_.next();
-    return constant(textDatum(*t.text), t.span);
+    return constant(context_.budget.text(t.span, *t.text), t.span);
   }
   if (t.is("<")) return vector();
   if (t.kind == Token::Kind::name) return name();

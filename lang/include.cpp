@@ -45,7 +45,8 @@ Includes::Includes(Context& context, const std::string& sceneFile)
 
 Includes::File Includes::add(const std::string& name, std::string text) {
   const int file = context_.sources.add(name, std::move(text));
-  lists_.push_back(tokenise(file, context_.sources, context_.names, context_.reporter));
+  lists_.push_back(
+      tokenise(file, context_.sources, context_.names, context_.reporter, context_.budget));
   return {file, &lists_.back()};
 }
 

@@ -13,13 +13,15 @@ namespace vestige::lang {
 
 class Sources;  // lang/source.h: texts and expansions that spans refer to
 
-/// Limits on the cost of hostile texts. Each has its own message, which names the option that
-/// raises it.
+/// Limits on the cost of hostile texts: steps and bytes bound time and memory whatever the text
+/// does (budget.h); the others find a mistake sooner. Each has its own message, which names the
+/// option that raises it.
 struct Limits {
   int includeDepth = 32;
   int macroDepth = 200;
   std::int64_t loopIterations = 10'000'000;  ///< in the whole run
-  std::int64_t expandedTokens = 200'000'000;
+  std::int64_t expandedTokens = 100'000'000;
+  std::int64_t memory = 768 << 20;  ///< bytes of the text, its names, values and blocks
   std::size_t stringLength = 1 << 20;
   int errors = 20;                        ///< then parsing stops
   int nesting = 256;                      ///< depth of braces, parentheses and calls

@@ -21,14 +21,17 @@ constexpr const char* kSigns = "(){}[]<>,;:?.+-*/%&|!=^";
 
 class Lexer {
  public:
-  Lexer(int file, const Sources& sources, Names& names)
-      : file_(file), text_(sources.text(file).text), names_(names) {}
+  Lexer(int file, const Sources& sources, Names& names, Budget& budget)
+      : file_(file), text_(sources.text(file).text), names_(names), budget_(budget) {}
 
   std::vector<Token> run() {
     if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) at_ = 3;  // byte order mark of UTF-8
     std::vector<Token> tokens;
-    do tokens.push_back(next());
-    while (tokens.back().kind != Token::Kind::end);
+    do {
+      const Token t = next();
+      budget_.reserveOne(t.span, tokens);
+      tokens.push_back(t);
+    } while (tokens.back().kind != Token::Kind::end);
     return tokens;
   }
 
@@ -219,6 +222,7 @@ class Lexer {
   int file_;
   const std::string& text_;
   Names& names_;
+  Budget& budget_;
   std::size_t at_ = 0;
 };
 
@@ -237,6 +241,9 @@ void pair(TokenList& list, Reporter& reporter) {
   };
   std::vector<Open> open;
   auto& tokens = list.tokens;
+  const auto close = [&](std::uint32_t part, std::uint32_t end) {
+    for (; part < end; part = tokens[part].jump) list.closings[part] = end;
+  };
   const auto isSwitch = [&](const Open& o) { return *tokens[o.first].text == "switch"; };
   for (std::uint32_t i = 0; i < tokens.size(); ++i) {
     Token& t = tokens[i];
@@ -254,31 +261,36 @@ void pair(TokenList& list, Reporter& reporter) {
       tokens[open.back().last].jump = i;
       open.back().last = i;
       if (*t.text != "end") continue;
+      close(open.back().first, i);
       t.jump = open.back().first;
       open.pop_back();
     }
   }
   for (const Open& o : open) {
     tokens[o.last].jump = std::uint32_t(tokens.size() - 1);
+    close(o.first, tokens[o.last].jump);
     reporter.error(tokens[o.first].span, "#" + *tokens[o.first].text + " has no #end");
   }
 }
 
 }  // namespace
 
-TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter) {
+TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter,
+                   Budget& budget) {
   TokenList list;
-  list.tokens = Lexer(file, sources, names).run();
+  budget.copy({}, sources.text(file).text.size());
+  list.tokens = Lexer(file, sources, names, budget).run();
   pair(list, reporter);
+  constexpr std::size_t kClosing = 48;  // bytes of an entry of the map
+  budget.keep(list.closings.size() * kClosing);
   return list;
 }
 
 std::string describe(const Token& token, const Sources& sources) {
   if (token.kind == Token::Kind::end) return "the end of the file";
   if (token.kind == Token::Kind::directive) return "'#" + *token.text + "'";
-  std::string shown = sources.excerpt(token.span);
   constexpr std::size_t kLongest = 40;
-  if (shown.size() > kLongest) shown = shown.substr(0, kLongest) + "...";
+  const std::string shown = sources.excerpt(token.span, kLongest);
   if (token.kind == Token::Kind::number) return "the number " + shown;
   if (token.kind == Token::Kind::string) return "the string " + shown;
   return "'" + shown + "'";

@@ -3,9 +3,11 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
+#include "lang/budget.h"
 #include "lang/report.h"
 #include "lang/source.h"
 
@@ -14,9 +16,16 @@ namespace vestige::lang {
 /// Strings kept once, so that equal names are equal pointers.
 class Names {
  public:
-  const std::string* intern(std::string text) { return &*pool_.insert(std::move(text)).first; }
+  explicit Names(Total memory) : memory_(std::move(memory)) {}
+  const std::string* intern(std::string text) {
+    const auto [at, isNew] = pool_.insert(std::move(text));
+    if (isNew) *memory_ += std::int64_t(kNode + at->capacity());
+    return &*at;
+  }
 
  private:
+  static constexpr std::size_t kNode = 80;  ///< bytes of an entry without its letters
+  Total memory_;
   std::unordered_set<std::string> pool_;
 };
 
@@ -52,10 +61,14 @@ struct Token {
 /// All tokens of one text, the last of kind `end`.
 struct TokenList {
   std::vector<Token> tokens;
+  /// For a directive that opens or continues a construct: the token index of its #end, or of the
+  /// end of the text.
+  std::unordered_map<std::uint32_t, std::uint32_t> closings = {};
 };
 
 /// Never fails: a lexical error becomes a `bad` token, an unpaired #end or #if a diagnostic.
-TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter);
+TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter,
+                   Budget& budget);
 
 /// "'light'", "number 3", "the end of the file": a token in messages.
 std::string describe(const Token& token, const Sources& sources);

@@ -96,9 +96,9 @@ void Directives::readBody(const Macro& m, const std::vector<Cell>& arguments, co
   for (std::size_t i = 0; i < m.parameters.size(); ++i) {
     const auto& p = m.parameters[i];
     if (i < arguments.size())
-      context_.symbols.top()[p.name] = arguments[i];
+      context_.symbols.bind(p.name, arguments[i]);
     else if (!isBroken(p.initial))
-      context_.symbols.top()[p.name] = std::make_shared<Symbol>(Symbol{p.initial, m.declared});
+      context_.symbols.bind(p.name, std::make_shared<Symbol>(Symbol{p.initial, m.declared}));
   }
 }
 

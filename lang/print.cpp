@@ -101,7 +101,7 @@ class Printer {
       const bool skipped = length > kLongChain && step >= kLongChain - 2 && step < length - 2;
       if (!skipped) {
         out_ << "  "
-             << (e.kind == Expansion::Kind::macro ? "in the call of macro '" + e.name + "' at "
+             << (e.kind == Expansion::Kind::macro ? "in the call of macro '" + *e.name + "' at "
                                                   : "included from ")
              << where(e.call) << '\n';
       } else if (step == kLongChain - 2) {

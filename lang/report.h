@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Diagnostics while parsing: deduplicated, limited, and the exceptions used for recovery.
 #pragma once
-#include <set>
 #include <string>
-#include <tuple>
+#include <string_view>
+#include <unordered_set>
 
 #include <vestige/diagnostic.h>
 
@@ -21,7 +21,10 @@ class Reporter {
 
   /// Reports an error. The same message at the same place, as in a loop, is reported once.
   Diagnostic& error(const Span& span, const std::string& message) {
-    if (!isNew(span, message)) return ignored_;
+    if (!isNew(span, message)) {
+      if (++repeats_ > kMostRepeats) throw Stop{};  // has been reported, and costs time
+      return discarded();
+    }
     if (diagnostics_.errors() >= mostErrors_) {
       diagnostics_.error(span,
                          "too many errors, the rest is not shown: --max-errors raises the "
@@ -29,12 +32,12 @@ class Reporter {
                              std::to_string(mostErrors_));
       throw Stop{};
     }
-    return diagnostics_.error(span, message);
+    return diagnostics_.error(span, shortened(message));
   }
   Diagnostic& warning(const Span& span, const std::string& message) {
-    if (!isNew(span, message) || warnings_ >= kMostWarnings) return ignored_;
+    if (warnings_ >= kMostWarnings || !isNew(span, message)) return discarded();
     ++warnings_;
-    return diagnostics_.warning(span, message);
+    return diagnostics_.warning(span, shortened(message));
   }
   [[noreturn]] void syntaxError(const Span& span, const std::string& message) {
     error(span, message);
@@ -47,15 +50,26 @@ class Reporter {
 
  private:
   static constexpr int kMostWarnings = 100;
+  static constexpr int kMostRepeats = 10'000;  ///< of errors, as in a long loop
+  static constexpr std::size_t kLongestMessage = 4000;
+
+  /// Only a hash is kept: a message may quote a long string.
   bool isNew(const Span& span, const std::string& message) {
-    ignored_ = {};
-    return seen_.emplace(span.file, span.begin, message).second;
+    const std::size_t place = std::size_t(span.file) << 32 | span.begin;
+    const std::size_t hash = std::hash<std::string_view>()(message);
+    return seen_.insert(hash ^ place * 0x9E3779B97F4A7C15ull).second;
+  }
+  Diagnostic& discarded() { return ignored_ = {}; }
+  static std::string shortened(const std::string& message) {
+    if (message.size() <= kLongestMessage) return message;
+    return message.substr(0, kLongestMessage) + "...";
   }
 
   Diagnostics& diagnostics_;
   int mostErrors_;
   int warnings_ = 0;
-  std::set<std::tuple<std::int32_t, std::uint32_t, std::string>> seen_;
+  int repeats_ = 0;
+  std::unordered_set<std::size_t> seen_;
   Diagnostic ignored_;  ///< receives the notes of a repeated error
 };
 

@@ -24,23 +24,38 @@ int Sources::add(std::string name, std::string text) {
   Text t{std::move(name), std::move(text), {0}};
   for (std::size_t i = 0; i < t.text.size(); ++i)
     if (t.text[i] == '\n') t.lineStarts.push_back(std::uint32_t(i + 1));
+  *memory_ += std::int64_t(t.text.size() + t.lineStarts.capacity() * sizeof t.lineStarts[0]);
   texts_.push_back(std::move(t));
   return size() - 1;
 }
 
 int Sources::expand(Expansion::Kind kind, const std::string& name, const Span& call) {
-  const std::string key = (kind == Expansion::Kind::macro ? "m" : "i") + name + '\n' +
-                          std::to_string(call.file) + ' ' + std::to_string(call.begin) + ' ' +
-                          std::to_string(call.via);
-  if (const auto found = known_.find(key); found != known_.end()) return found->second;
+  const Expansion made{kind, &*names_.insert(name).first, call, depth(call.via) + 1};
+  if (const auto found = known_.find(made); found != known_.end()) return found->second;
   if (expansions_.size() >= kMostExpansions) return call.via;
-  expansions_.push_back({kind, name, call, depth(call.via) + 1});
-  return known_[key] = int(expansions_.size()) - 1;
+  *memory_ += 4 * std::int64_t(sizeof made);  // in the list, which may be half empty, and the map
+  expansions_.push_back(made);
+  return known_[made] = int(expansions_.size()) - 1;
 }
 
-std::string Sources::excerpt(const Span& span) const {
-  return span.file < 0 ? std::string()
-                       : text(span.file).text.substr(span.begin, span.end - span.begin);
+std::size_t Sources::CallHash::operator()(const Expansion& e) const noexcept {
+  std::size_t hash = std::hash<const std::string*>()(e.name);
+  for (const std::size_t part : {std::size_t(e.kind), std::size_t(e.call.file),
+                                 std::size_t(e.call.begin), std::size_t(e.call.via)})
+    hash = (hash ^ part) * 0x9E3779B97F4A7C15ull;
+  return hash ^ hash >> 32;
+}
+
+bool Sources::SameCall::operator()(const Expansion& a, const Expansion& b) const noexcept {
+  return a.kind == b.kind && a.name == b.name && a.call.file == b.call.file &&
+         a.call.begin == b.call.begin && a.call.via == b.call.via;
+}
+
+std::string Sources::excerpt(const Span& span, std::size_t most) const {
+  if (span.file < 0) return {};
+  const std::size_t length = span.end - span.begin;
+  const std::string part = text(span.file).text.substr(span.begin, std::min(length, most));
+  return part + (length > most ? "..." : "");
 }
 
 int Sources::lineOf(int file, std::uint32_t offset) const {

@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include <vestige/diagnostic.h>
+
+#include "lang/share.h"
 
 namespace vestige::lang {
 
@@ -21,13 +24,15 @@ struct Text {
 struct Expansion {
   enum class Kind { macro, include };
   Kind kind = Kind::macro;
-  std::string name;
+  const std::string* name = nullptr;  ///< of the macro or the file; owned by Sources
   Span call;      ///< span of the call or of the #include; its own `via` leads further out
   int depth = 1;  ///< length of the chain
 };
 
 class Sources {
  public:
+  /// Texts and expansions from now on count as bytes of `memory`.
+  void countOn(Total memory) { memory_ = std::move(memory); }
   int add(std::string name, std::string text);
   /// The same call through the same chain is the same expansion, so that loops cost nothing.
   int expand(Expansion::Kind kind, const std::string& name, const Span& call);
@@ -36,7 +41,8 @@ class Sources {
   const Text& text(int file) const { return texts_[std::size_t(file)]; }
   const Expansion& expansion(int via) const { return expansions_[std::size_t(via)]; }
   int depth(int via) const { return via < 0 ? 0 : expansion(via).depth; }
-  std::string excerpt(const Span& span) const;
+  /// The text of a span, cut after `most` bytes.
+  std::string excerpt(const Span& span, std::size_t most = std::string::npos) const;
   /// From 0.
   int lineOf(int file, std::uint32_t offset) const;
   /// The span from the beginning of one to the end of the other; if they came through different
@@ -46,7 +52,15 @@ class Sources {
  private:
   std::vector<Text> texts_;
   std::vector<Expansion> expansions_;
-  std::unordered_map<std::string, int> known_;  ///< expansions by kind, name and call
+  struct CallHash {
+    std::size_t operator()(const Expansion& e) const noexcept;
+  };
+  struct SameCall {
+    bool operator()(const Expansion& a, const Expansion& b) const noexcept;
+  };
+  std::unordered_set<std::string> names_;
+  std::unordered_map<Expansion, int, CallHash, SameCall> known_;
+  Total memory_ = std::make_shared<std::atomic<std::int64_t>>(0);
 };
 
 }  // namespace vestige::lang

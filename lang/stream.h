@@ -15,6 +15,7 @@ struct OpenDirective {
   std::uint32_t first = 0;  ///< index of the directive that opened it
   Cell counter = {};        ///< the variable of #for, with its last value and step
   double last = 0, step = 1;
+  std::uint32_t body = 0;  ///< of #for: index of the token behind the head
 };
 
 /// A text or a macro's body that is being read.

@@ -38,9 +38,12 @@ class Symbols {
  public:
   using Table = std::unordered_map<const std::string*, Cell>;
 
-  Symbols() { push(); }
+  explicit Symbols(Total memory) : memory_(std::move(memory)) { push(); }
   void push() { tables_.emplace_back(); }
-  void pop() { tables_.pop_back(); }
+  void pop() {
+    *memory_ -= kEntry * std::int64_t(top().size());
+    tables_.pop_back();
+  }
   Table& top() { return tables_.back(); }
 
   /// The nearest binding, or null.
@@ -54,6 +57,10 @@ class Symbols {
     if (Cell cell = find(name)) return cell;
     return create(tables_.front(), name);
   }
+  /// A parameter of a macro: a binding to the argument in the innermost table.
+  void bind(const std::string* name, Cell cell) {
+    if (top().insert_or_assign(name, std::move(cell)).second) *memory_ += kEntry;
+  }
   /// #local: a binding in the innermost table.
   Cell local(const std::string* name) {
     if (const auto found = top().find(name); found != top().end()) return found->second;
@@ -62,7 +69,10 @@ class Symbols {
   /// #undef: the nearest binding; false if there is none.
   bool undefine(const std::string* name) {
     for (auto t = tables_.rbegin(); t != tables_.rend(); ++t)
-      if (t->erase(name) > 0) return true;
+      if (t->erase(name) > 0) {
+        *memory_ -= kEntry;
+        return true;
+      }
     return false;
   }
   /// Every visible name, for "did you mean".
@@ -75,9 +85,13 @@ class Symbols {
   }
 
  private:
-  static Cell create(Table& table, const std::string* name) {
+  /// Bytes of a name's entry and its cell, without what the value refers to.
+  static constexpr std::int64_t kEntry = sizeof(Symbol) + 80;
+  Cell create(Table& table, const std::string* name) {
+    *memory_ += kEntry;
     return table[name] = std::make_shared<Symbol>();
   }
+  Total memory_;
   std::vector<Table> tables_;
 };
 

@@ -2,14 +2,14 @@
 // The values that expressions have at parse time.
 #pragma once
 #include <array>
-#include <atomic>
-#include <functional>
 #include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include <vestige/scene_desc.h>
+
+#include "lang/share.h"
 
 namespace vestige::lang {
 
@@ -41,34 +41,6 @@ using ArrayPtr = std::shared_ptr<const Array>;
 /// accept it silently.
 using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, Affine, FunctionPtr,
                            ArrayPtr, MacroPtr>;
-
-/// A count of live objects. A scene returns its shares when it is destroyed, on any thread.
-using Total = std::shared_ptr<std::atomic<std::int64_t>>;
-
-/// A share of a total, returned when its owner is destroyed.
-class Share {
- public:
-  Share() = default;
-  Share(Total total, std::int64_t size) : total_(std::move(total)), size_(size) {
-    *total_ += size_;
-  }
-  Share(const Share& other) : total_(other.total_), size_(other.size_) {
-    if (total_) *total_ += size_;
-  }
-  Share(Share&& other) noexcept : total_(std::move(other.total_)), size_(other.size_) {}
-  Share& operator=(Share other) noexcept {
-    std::swap(total_, other.total_);
-    std::swap(size_, other.size_);
-    return *this;
-  }
-  ~Share() {
-    if (total_) *total_ -= size_;
-  }
-
- private:
-  Total total_;
-  std::int64_t size_ = 0;
-};
 
 /// Flat, the last index fastest.
 struct Array {

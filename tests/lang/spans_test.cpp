@@ -39,10 +39,10 @@ TEST_CASE("values from macros know the calls", "[lang]") {
   CHECK(excerptOf(r, span) == "R");
   REQUIRE(span.via >= 0);
   const Expansion& inner = r.sources->expansion(span.via);
-  CHECK(inner.name == "Ball");
+  CHECK(*inner.name == "Ball");
   CHECK(excerptOf(r, inner.call) == "Ball(R + 1)");
   const Expansion& outer = r.sources->expansion(inner.call.via);
-  CHECK(outer.name == "Two");
+  CHECK(*outer.name == "Two");
   CHECK(excerptOf(r, outer.call) == "Two(5)");
   CHECK(outer.call.via == -1);
 }

@@ -59,26 +59,42 @@ class Diagnostics {
   int errors_ = 0;
 };
 
+/// Longer words get no suggestion: a search through all names must cost little.
+inline constexpr std::size_t kLongestGuess = 64;
+
+/// The number of insertions, deletions, changes and swaps that turn one word into the other;
+/// `bound` if there are that many or more. Both words have at most kLongestGuess letters.
+inline std::size_t editDistance(const std::string& a, const std::string& b, std::size_t bound) {
+  const std::size_t n = a.size(), m = b.size();
+  if ((n < m ? m - n : n - m) >= bound) return bound;
+  std::size_t rows[3][kLongestGuess + 1] = {};  // row i of the table is rows[i % 3]
+  for (std::size_t j = 0; j <= m; ++j) rows[0][j] = j;
+  for (std::size_t i = 1; i <= n; ++i) {
+    std::size_t* const row = rows[i % 3];
+    const std::size_t *const above = rows[(i + 2) % 3], *const twoAbove = rows[(i + 1) % 3];
+    std::size_t least = row[0] = i;
+    for (std::size_t j = 1; j <= m; ++j) {
+      row[j] =
+          std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], twoAbove[j - 2] + 1);
+      least = std::min(least, row[j]);
+    }
+    if (least >= bound) return bound;  // a swap skips a row, which costs as much
+  }
+  return std::min(rows[n % 3][m], bound);
+}
+
 /// The known word nearest to a misspelt one, or "" if none is near (at most a third of the letters
 /// differ, counting insertions, deletions, changes and swaps).
 inline std::string nearestWord(const std::string& word, const std::vector<std::string>& known) {
   std::string best;
+  if (word.size() > kLongestGuess) return best;
   std::size_t bestCost = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& k : known) {
-    const std::size_t n = word.size(), m = k.size();
-    std::vector<std::vector<std::size_t>> d(n + 1, std::vector<std::size_t>(m + 1));
-    for (std::size_t i = 0; i <= n; ++i)
-      for (std::size_t j = 0; j <= m; ++j) {
-        if (i == 0 || j == 0) {
-          d[i][j] = i + j;
-          continue;
-        }
-        d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1,
-                            d[i - 1][j - 1] + (word[i - 1] == k[j - 1] ? 0 : 1)});
-        if (i > 1 && j > 1 && word[i - 1] == k[j - 2] && word[i - 2] == k[j - 1])
-          d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-      }
-    if (d[n][m] < bestCost) bestCost = d[n][m], best = k;
+    if (k.size() > kLongestGuess) continue;
+    const std::size_t cost = editDistance(word, k, bestCost);
+    if (cost < bestCost) bestCost = cost, best = k;
   }
   return best;
 }

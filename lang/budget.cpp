@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/budget.h"
+
+namespace vestige::lang {
+namespace {
+
+/// Strings that fit into the string object itself.
+constexpr std::size_t kShortText = 16;
+
+struct CountedText {
+  std::string text;
+  Share share;
+};
+
+}  // namespace
+
+Datum Budget::text(const Span& span, std::string s) {
+  copy(span, s.size());
+  if (s.size() < kShortText) return textDatum(std::move(s));
+  const auto counted = std::make_shared<CountedText>();
+  counted->share = take(span, sizeof(CountedText) + s.size());
+  counted->text = std::move(s);
+  return TextPtr(counted, &counted->text);
+}
+
+void Budget::stopAtSteps(const Span& span) {
+  reporter_.stop(span, "this scene takes more than " + std::to_string(limits_.expandedTokens) +
+                           " steps to read: is a loop or a macro endless? --max-tokens raises "
+                           "the limit");
+}
+
+void Budget::stopAtMemory(const Span& span) {
+  reporter_.stop(span, "this scene takes more than " + std::to_string(limits_.memory >> 20) +
+                           " MB to read: --max-memory raises the limit");
+}
+
+}  // namespace vestige::lang
