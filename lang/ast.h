@@ -37,7 +37,8 @@ struct Expr {
   Datum value;
   std::string word;
   int slot = 0;
-  int depth = 1;  ///< of the tree
+  int depth = 1;          ///< of the tree
+  std::int64_t size = 1;  ///< number of nodes of the tree
   const Builtin* function = nullptr;
   std::vector<ExprPtr> args;
 
@@ -53,6 +54,7 @@ struct Function {
   std::vector<const std::string*> parameters;
   ExprPtr body;      ///< null: `transform`
   Affine transform;  ///< gives a vector
+  Share bytes = {};
   mutable std::shared_ptr<const vestige::Function> program =
       nullptr;  ///< created when a block uses the function
 };

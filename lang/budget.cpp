@@ -7,6 +7,9 @@ namespace {
 /// Strings that fit into the string object itself.
 constexpr std::size_t kShortText = 16;
 
+/// Bytes that two blocks of memory take beside their contents.
+constexpr std::size_t kBlocks = 48;
+
 struct CountedText {
   std::string text;
   Share share;
@@ -18,8 +21,8 @@ Datum Budget::text(const Span& span, std::string s) {
   copy(span, s.size());
   if (s.size() < kShortText) return textDatum(std::move(s));
   const auto counted = std::make_shared<CountedText>();
-  counted->share = take(span, sizeof(CountedText) + s.size());
-  counted->text = std::move(s);
+  counted->share = take(span, sizeof(CountedText) + kBlocks + s.size());
+  counted->text.assign(s);  // without the space that it grew by
   return TextPtr(counted, &counted->text);
 }
 

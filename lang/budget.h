@@ -8,6 +8,9 @@
 
 namespace vestige::lang {
 
+/// Steps that looking for a file counts as.
+inline constexpr std::int64_t kFileSteps = 1000;
+
 class Budget {
  public:
   Budget(const Limits& limits, Reporter& reporter) : limits_(limits), reporter_(reporter) {}
@@ -30,14 +33,14 @@ class Budget {
     return {bytes_, std::int64_t(bytes)};
   }
   /// Memory that is kept until the text has been read.
-  void keep(std::size_t bytes) { *bytes_ += std::int64_t(bytes); }
+  void keep(std::int64_t bytes) { *bytes_ += bytes; }
   /// Space for one more element; the old elements and the new ones exist at the same time.
   template <class Vector>
   void reserveOne(const Span& span, Vector& v) {
     if (v.size() < v.capacity()) return;
     const std::size_t wanted = v.size() + v.size() / 2 + 4;
     need(span, double(wanted * sizeof v[0]));
-    keep((wanted - v.capacity()) * sizeof v[0]);
+    keep(std::int64_t((wanted - v.capacity()) * sizeof v[0]));
     v.reserve(wanted);
   }
   /// A string that counts as long as it lives.

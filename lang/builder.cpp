@@ -6,7 +6,8 @@
 namespace vestige::lang {
 namespace {
 
-void moveBlock(Block& block, const Affine& t);
+/// Returns the number of blocks and settings that were copied or changed.
+std::int64_t moveBlock(Block& block, const Affine& t);
 
 bool holdsBlocks(const Value& value) {
   return value.block || (value.list && value.list->holdsBlocks);
@@ -14,27 +15,34 @@ bool holdsBlocks(const Value& value) {
 
 /// Copies of a declared block share the blocks in its settings, so a transformed block must be a
 /// new one.
-void moveValue(Value& value, const Affine& t) {
+std::int64_t moveValue(Value& value, const Affine& t) {
+  std::int64_t count = 1;
   if (value.block) {
     auto moved = std::make_shared<Block>(*value.block);
-    moveBlock(*moved, t);
+    count += moveBlock(*moved, t);
     value.block = std::move(moved);
   }
   if (value.list && value.list->holdsBlocks) {
     auto moved = std::make_shared<List>(*value.list);
-    for (Entry& e : moved->entries) moveValue(e.value, t);
+    for (Entry& e : moved->entries) count += moveValue(e.value, t);
     value.list = std::move(moved);
   }
+  return count;
 }
 
-void moveBlock(Block& block, const Affine& t) {
+std::int64_t moveBlock(Block& block, const Affine& t) {
+  std::int64_t count = 1;
   block.world = t * block.world;
   if (!block.children.empty())
-    for (Block& child : block.children.edit()) moveBlock(child, t);
+    for (Block& child : block.children.edit()) count += moveBlock(child, t);
   if (std::any_of(block.settings.begin(), block.settings.end(),
                   [](const Setting& s) { return holdsBlocks(s.value); }))
-    for (Setting& s : block.settings.edit()) moveValue(s.value, t);
+    for (Setting& s : block.settings.edit()) count += moveValue(s.value, t);
+  return count;
 }
+
+/// Bytes of a block and of the list that holds it; its settings are counted one by one.
+constexpr std::int64_t kBlockBytes = sizeof(Block) + 64;
 
 std::int64_t measure(const Block& block, int level, int& depth);
 
@@ -59,7 +67,10 @@ std::int64_t measure(const Block& block, int level, int& depth) {
 
 void countBlocks(Context& context, const Block& block, const Span& span) {
   int depth = 0;
-  context.blocks += measure(block, 1, depth);
+  const std::int64_t count = measure(block, 1, depth);
+  context.blocks += count;
+  context.step(span, count);
+  context.budget.keep(kBlockBytes);
   if (context.blocks > context.options.limits.blocks)
     context.reporter.stop(span, "this scene has more than " +
                                     std::to_string(context.options.limits.blocks) +
@@ -141,6 +152,7 @@ void BlockBuilder::store(const Parameter& row, const Span& nameSpan, Value value
     settings.edit().erase(settings.edit().begin() + index);
   }
   given_.push_back(&row);
+  makeRoom(settings, nameSpan);
   settings.push_back({row.name, std::move(value), nameSpan});
 }
 
@@ -148,12 +160,23 @@ void BlockBuilder::add(Block child) {
   int depth = 0;
   measure(child, 1, depth);
   if (depth >= context_.deepest()) countBlocks(context_, child, child.span);
+  makeRoom(block_.children, block_.span);
   block_.children.push_back(std::move(child));
+}
+
+/// Counts the element that is about to be added to a list, and the copy of a list that is shared.
+template <class T>
+void BlockBuilder::makeRoom(SharedList<T>& list, const Span& span) {
+  const std::size_t room = std::exchange(hasCopied_, true) ? 2 : list.size() + 2;
+  context_.budget.need(span, double(room * sizeof(T)));
+  context_.budget.keep(std::int64_t(room * sizeof(T)));
 }
 
 void BlockBuilder::move(const Affine& transform) {
   block_.own = transform * block_.own;
-  moveBlock(block_, transform);
+  const std::int64_t count = moveBlock(block_, transform);
+  context_.step(block_.span, count);
+  if (!std::exchange(hasMoved_, true)) context_.budget.keep(count * kBlockBytes);
 }
 
 Block BlockBuilder::finish() {

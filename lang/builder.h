@@ -43,6 +43,8 @@ class BlockBuilder {
 
  private:
   void store(const Parameter& row, const Span& nameSpan, Value value);
+  template <class T>
+  void makeRoom(SharedList<T>& list, const Span& span);
 
   Context& context_;
   const Schema& schema_;
@@ -51,6 +53,7 @@ class BlockBuilder {
   std::vector<const Parameter*> places_;
   std::vector<const Parameter*> given_;  ///< in these braces
   bool isForgiving_ = false;
+  bool hasCopied_ = false, hasMoved_ = false;  ///< lists of the declared block have been copied
 };
 
 /// Counts a copy of a block against the limit, and checks how deep it is.

@@ -103,6 +103,8 @@ Datum applyBuiltin(const Builtin& builtin, const Call& given) {
       return call.complain(i, std::string(builtin.name) + "() takes " + wanted(letter) + " here" +
                                   ", found " + describe(call.args[i]));
   }
+  for (const Datum& d : call.args)
+    if (const auto* s = std::get_if<TextPtr>(&d)) call.context.budget.copy(call.span, (*s)->size());
   return builtin.apply(call);
 }
 

@@ -82,6 +82,7 @@ Datum bitwise(const Call& c) {
 
 /// Streams are numbered: seed() returns the next number.
 Datum seed(const Call& c) {
+  c.context.budget.reserveOne(c.span, c.context.streams);
   c.context.streams.push_back(std::uint32_t(c.integer(0)));
   return Numbers(double(c.context.streams.size() - 1));
 }

@@ -13,10 +13,12 @@ namespace {
 constexpr int kWidest = 1100;
 
 /// C's "%*.*f": negative width fills with zeros, negative precision means 6.
-std::string layout(double x, int width, int digits) {
+std::string layout(const Call& c, double x, int width, int digits) {
+  constexpr int kDigitsAStep = 2;
   const bool zeros = width < 0;
   width = std::min(std::abs(std::max(width, -kWidest)), kWidest);
   digits = digits < 0 ? 6 : std::min(digits, kWidest);
+  c.context.step(c.span, (width + digits) / kDigitsAStep);
   std::string s(
       std::size_t(std::snprintf(nullptr, 0, zeros ? "%0*.*f" : "%*.*f", width, digits, x)), '\0');
   std::snprintf(s.data(), s.size() + 1, zeros ? "%0*.*f" : "%*.*f", width, digits, x);
@@ -48,7 +50,7 @@ Datum vectorText(const Call& c) {
   std::string s;
   for (int i = 0; i < n; ++i) {
     if (i > 0) append(c, s, c.text(2));
-    append(c, s, layout(v.at(i), c.integer(3), c.integer(4)));
+    append(c, s, layout(c, v.at(i), c.integer(3), c.integer(4)));
   }
   return made(c, std::move(s));
 }
@@ -92,6 +94,7 @@ Datum numberOf(const Call& c) {
 }
 
 Datum fileExists(const Call& c) {
+  c.context.step(c.span, kFileSteps);
   return Numbers(c.context.fileExists && c.context.fileExists(c.text(0)) ? 1 : 0);
 }
 
@@ -107,7 +110,7 @@ std::vector<Builtin> stringBuiltins() {
       {"concat", "s+", concat},
       {"file_exists", "s", fileExists, false},
       {"str", "nnn",
-       [](const Call& c) { return made(c, layout(c.number(0), c.integer(1), c.integer(2))); }},
+       [](const Call& c) { return made(c, layout(c, c.number(0), c.integer(1), c.integer(2))); }},
       {"strcmp", "ss",
        [](const Call& c) -> Datum {
          const int order = c.text(0).compare(c.text(1));

@@ -57,6 +57,13 @@ struct Context {
                             " elements: --max-array-elements raises the limit");
   }
   void step(const Span& span, std::int64_t count = 1) { budget.step(span, count); }
+  /// A suggestion for a misspelt word, or nothing. Comparing it with each name is work.
+  std::string suggest(const Span& span, const std::string& word,
+                      const std::vector<std::string>& known) {
+    constexpr std::int64_t kStepsAName = 8;
+    step(span, kStepsAName * std::int64_t(known.size()));
+    return didYouMean(word, known);
+  }
 };
 
 /// Increases the nesting depth during its lifetime.

@@ -101,6 +101,7 @@ class Converter {
       auto value = convert(context_, row, datum, span_, who);
       if (!key || !value) return {};
       value->span = span_;
+      context_.budget.reserveOne(span_, list.entries);
       list.entries.push_back({*key, std::move(*value), span_});
     }
     return listOf(context_, row_, std::move(list), span_);

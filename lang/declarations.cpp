@@ -191,12 +191,20 @@ Parser::Declared Parser::array() {
   const bool isOpenEnded = a->sizes.empty();
   a->share = Share(context_.elements, isOpenEnded ? 0 : std::int64_t(total));
   context_.checkElements(word.span);
-  if (!isOpenEnded) a->data.resize(total);
+  if (!isOpenEnded) {
+    const std::size_t bytes = sizeof(Array) + total * sizeof(Datum);
+    a->bytes = context_.budget.take(word.span, bytes);
+    context_.budget.copy(word.span, bytes);
+    a->data.resize(total);
+  }
   if (isOpenEnded && !stream_.peekRaw().is("{"))
     expressions_.unexpected("'[' and a size, or '{' and the elements, after 'array'");
   if (stream_.peekRaw().is("{")) elements(*a, 0, 0);
   if (isOpenEnded) {
     a->sizes.push_back(int(a->data.size()));
+    const std::size_t bytes = a->data.capacity() * sizeof(Datum);
+    context_.budget.keep(-std::int64_t(bytes));  // counted while it grew
+    a->bytes = context_.budget.take(word.span, sizeof(Array) + bytes);
     a->share = Share(context_.elements, std::int64_t(a->data.size()));
     context_.checkElements(word.span);
   }
@@ -224,6 +232,7 @@ void Parser::elements(Array& array, std::size_t level, std::size_t first) {
     } else {
       Datum element = value(ExpressionParser::Place::setting).value;
       if (isOpenEnded) {
+        context_.budget.reserveOne(open, array.data);
         array.data.push_back(std::move(element));
       } else {
         array.data[next] = std::move(element);

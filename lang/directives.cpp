@@ -5,6 +5,8 @@
 #include <iostream>
 #include <map>
 
+#include "lang/printable.h"
+
 namespace vestige::lang {
 
 Directives::Handler Directives::handlerOf(const std::string& word) {
@@ -162,6 +164,9 @@ void Directives::assignElement(const Token& directive, const Token& name) {
   if (!at) return;
   // Arrays are values: other owners keep the old element. Without other owners no copy is made.
   if (array->use_count() > 1) {
+    const std::size_t bytes = (*array)->data.size() * sizeof(Datum);
+    context_.budget.need(name.span, double(bytes));
+    context_.budget.copy(name.span, bytes);
     cell->value = std::make_shared<const Array>(**array);
     context_.checkElements(name.span);
   }
@@ -172,17 +177,24 @@ void Directives::assignElement(const Token& directive, const Token& name) {
 void Directives::undefine(const Token& directive) {
   const Token name = plainName("#" + *directive.text);
   if (!context_.symbols.undefine(name.text))
-    context_.reporter.warning(name.span, "'" + *name.text + "' has no value to forget" +
-                                             didYouMean(*name.text, context_.symbols.names()));
+    context_.reporter.warning(
+        name.span, "'" + *name.text + "' has no value to forget" +
+                       context_.suggest(name.span, *name.text, context_.symbols.names()));
   stream_.acceptRaw(";");
 }
 
 // ---------------------------------------------------------------- texts
+/// A string is copied, cleaned and written, which takes longer than one copy.
+constexpr std::size_t kCopies = 8;
+
 /// The string after a directive, read without lookahead.
 std::optional<std::string> Directives::text(const Token& directive, Span& span) {
   const auto result = parser_.expressions().operand();
   span = result.span;
-  if (const auto* s = std::get_if<TextPtr>(&result.value)) return **s;
+  if (const auto* s = std::get_if<TextPtr>(&result.value)) {
+    context_.budget.copy(span, kCopies * (*s)->size());
+    return **s;
+  }
   if (!isBroken(result.value))
     context_.reporter.error(
         span, "#" + *directive.text + " takes a string, found " + describe(result.value));
@@ -194,6 +206,7 @@ void Directives::include(const Token& directive) {
   Span span;
   const auto name = text(directive, span);
   if (!name) return;
+  context_.step(span, kFileSteps);
   std::vector<std::string> tried;
   const std::string path = includes_.find(*name, directive.span.file, tried);
   if (path.empty()) return missingInclude(*name, span, tried);
@@ -203,14 +216,17 @@ void Directives::include(const Token& directive) {
                                       "paths, which --sandbox forbids");
     return;
   }
-  const auto file = includes_.load(path);
+  std::string why;
+  const auto file = includes_.load(path, why);
   if (!file) {
-    context_.reporter.error(span, "'" + path + "' cannot be read");
+    context_.reporter.error(span, "the include '" + path + "' " + why);
     return;
   }
   if (refuseInclude(path, file->file, span)) return;
-  stream_.push({Frame::Kind::file, file->tokens, 0, std::uint32_t(file->tokens->tokens.size() - 1),
-                context_.sources.expand(Expansion::Kind::include, path, span), file->file});
+  stream_.push(
+      {Frame::Kind::file, file->tokens, 0, std::uint32_t(file->tokens->tokens.size() - 1),
+       context_.sources.expand(Expansion::Kind::include, context_.names.intern(path), span),
+       file->file});
 }
 
 void Directives::missingInclude(const std::string& name, const Span& span,
@@ -251,9 +267,9 @@ void Directives::message(const Token& directive) {
   if (*directive.text == "warning")
     context_.reporter.warning(directive.span, line);
   else if (context_.options.debug)
-    context_.options.debug(line);
+    context_.options.debug(debugText(line));
   else
-    std::cerr << line << std::flush;
+    std::cerr << debugText(line) << std::flush;
 }
 
 // '#version' number [';']

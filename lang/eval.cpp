@@ -39,6 +39,7 @@ double grey(const Numbers& n) { return 0.297 * n.v[0] + 0.589 * n.v[1] + 0.114 *
 Datum Evaluator::evaluate(const Expr& e, Arguments a) {
   if (depth_ > context_.deepest() * kLevelsPerNesting)
     context_.stopTooDeep(e.span, "these functions are");
+  if (calls_ > 0) context_.step(e.span);
   ++depth_;
   const auto step = [&]() -> Datum {
     switch (e.kind) {
@@ -244,7 +245,12 @@ Datum Evaluator::invoke(const Expr& e, Arguments a) {
   std::vector<double> args(wanted);
   for (std::size_t i = 0; i < wanted; ++i)
     if (!wantNumber(evaluate(*e.args[i], a), *e.args[i], "'" + e.word + "'", args[i])) return {};
-  if (f.body) return evaluate(*f.body, args);
+  if (f.body) {
+    ++calls_;
+    Datum result = evaluate(*f.body, args);
+    --calls_;
+    return result;
+  }
   Numbers r(0, 0, 0);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& m = f.transform.m[i];

@@ -37,6 +37,7 @@ class Evaluator {
 
   Context& context_;
   int depth_ = 0;
+  int calls_ = 0;  ///< of functions in which evaluation is: their nodes are steps
 };
 
 /// The position of A[i][j] in the array's data, or nothing if an error was reported.

@@ -11,6 +11,8 @@ namespace {
 /// Deeper trees are folded to a constant immediately, so that a sum of a million terms needs no
 /// stack.
 constexpr int kDeepTree = 64;
+/// Bytes of a node, its operator and its place among the arguments.
+constexpr std::size_t kNodeBytes = sizeof(Expr) + 48;
 /// A function's tree is never folded.
 constexpr int kDeepestFunction = 250;
 
@@ -70,10 +72,25 @@ class ExpressionParser::With {
   Mode before_;
 };
 
+/// The nodes that an expression creates, during its lifetime.
+class ExpressionParser::Tree {
+ public:
+  explicit Tree(ExpressionParser& parser) : parser_(parser), before_(parser.nodes_) {}
+  ~Tree() { parser_.nodes_ = before_; }
+  Tree(const Tree&) = delete;
+  Tree& operator=(const Tree&) = delete;
+  std::size_t bytes() const { return std::size_t(parser_.nodes_ - before_) * kNodeBytes; }
+
+ private:
+  ExpressionParser& parser_;
+  std::int64_t before_;
+};
+
 // ---------------------------------------------------------------- from outside
 ExpressionParser::Result ExpressionParser::evaluate(Place place) {
   const With mode(*this,
                   {place != Place::setting, place == Place::declaration, stream_.frame().via});
+  const Tree tree(*this);
   const Function* around = std::exchange(function_, nullptr);
   const ExprPtr e = expression();
   function_ = around;
@@ -93,6 +110,7 @@ std::optional<double> ExpressionParser::condition() {
 
 ExpressionParser::Result ExpressionParser::operand() {
   const With mode(*this, {});
+  const Tree tree(*this);
   const ExprPtr e = postfix();
   return {evaluator_.evaluate(*e), e->span};
 }
@@ -101,6 +119,7 @@ void ExpressionParser::functionBody(Function& function) {
   const Span open = stream_.peek().span;
   if (!stream_.accept("{")) unexpected("'{' before the function's expression");
   const With mode(*this, {true, false, -1});
+  const Tree tree(*this);
   const Function* around = std::exchange(function_, &function);
   try {
     function.body = expression();
@@ -109,6 +128,7 @@ void ExpressionParser::functionBody(Function& function) {
     throw;
   }
   function_ = around;
+  function.bytes = context_.budget.take(open, tree.bytes());
   expect("}", open, "{");
 }
 
@@ -150,7 +170,8 @@ void ExpressionParser::unexpected(const std::string& expected) {
 void ExpressionParser::undeclared(const Token& name, const std::string& role) {
   std::vector<std::string> known = context_.symbols.names();
   for (const std::string& b : builtinNames()) known.push_back(b);
-  std::string hint = didYouMean(*name.text, known);
+  context_.step(name.span, kFileSteps);
+  std::string hint = context_.suggest(name.span, *name.text, known);
   const std::string file = context_.declaredIn ? context_.declaredIn(*name.text) : "";
   if (!file.empty()) hint = ": it is declared in '" + file + "', which is not included";
   const char* instead = insteadOf(*name.text);
@@ -161,25 +182,39 @@ void ExpressionParser::undeclared(const Token& name, const std::string& role) {
 
 // ---------------------------------------------------------------- building
 ExprPtr ExpressionParser::constant(Datum value, const Span& span) {
+  countNode(span);
   auto e = std::make_unique<Expr>();
   e->value = std::move(value);
   e->span = span;
   return e;
 }
 
+/// Bounds the nodes that exist at one time, in all unfinished expressions.
+void ExpressionParser::countNode(const Span& span) {
+  constexpr std::int64_t kCheckEvery = 1024;
+  if (++nodes_ % kCheckEvery == 0) context_.budget.need(span, double(nodes_) * kNodeBytes);
+}
+
 ExprPtr ExpressionParser::bounded(ExprPtr e) {
   for (const ExprPtr& arg : e->args)
-    if (arg) e->depth = std::max(e->depth, arg->depth + 1);
+    if (arg) {
+      e->depth = std::max(e->depth, arg->depth + 1);
+      e->size += arg->size;
+    }
   if (function_) {
     if (e->depth > kDeepestFunction)
       context_.reporter.syntaxError(e->span, "this function's expression is too long");
     return e;
   }
-  return e->depth > kDeepTree ? constant(evaluator_.evaluate(*e), e->span) : std::move(e);
+  if (e->depth <= kDeepTree) return e;
+  Datum value = evaluator_.evaluate(*e);
+  nodes_ -= e->size;
+  return constant(std::move(value), e->span);
 }
 
 ExprPtr ExpressionParser::node(Expr::Kind kind, const Span& span, std::string word,
                                std::vector<ExprPtr> args) {
+  countNode(span);
   auto e = std::make_unique<Expr>();
   e->kind = kind;
   e->span = e->wordSpan = span;

@@ -47,6 +47,7 @@ class ExpressionParser {
     std::int32_t via = -1;  ///< the text whose directives end it
   };
   class With;  ///< another mode during its lifetime
+  class Tree;
 
   const Token& operatorAhead();
   ExprPtr expression();
@@ -71,12 +72,14 @@ class ExpressionParser {
   ExprPtr constant(Datum value, const Span& span);
   ExprPtr node(Expr::Kind kind, const Span& span, std::string word, std::vector<ExprPtr> args);
   ExprPtr bounded(ExprPtr e);
+  void countNode(const Span& span);
 
   Context& context_;
   TokenStream& stream_;
   const Vocabulary& words_;
   Evaluator evaluator_;
   Mode mode_;
+  std::int64_t nodes_ = 0;              ///< of the trees that exist
   const Function* function_ = nullptr;  ///< whose body is being read
 };
 

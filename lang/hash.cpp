@@ -66,7 +66,9 @@ class Hash {
     const auto known = known_.find(&item);
     if (known != known_.end()) return known->second;
     Hash own;
+    own.known_.swap(known_);  // what the item shares with others is computed once, too
     own.add(item);
+    own.known_.swap(known_);
     if (size >= kLong) known_[&item] = own.value();
     return own.value();
   }

@@ -2,9 +2,8 @@
 #include "lang/include.h"
 
 #include <filesystem>
-#include <fstream>
-#include <limits>
-#include <sstream>
+
+#include <vestige/tools/regular_file.h>
 
 namespace vestige::lang {
 namespace {
@@ -29,17 +28,6 @@ bool isBelow(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
-std::optional<std::string> readFile(const std::string& path) {
-  std::error_code error;
-  if (!isFile(path) || fs::file_size(path, error) >= std::numeric_limits<std::uint32_t>::max())
-    return {};
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in || in.bad()) return {};
-  return text.str();
-}
-
 Includes::Includes(Context& context, const std::string& sceneFile)
     : context_(context), sceneFolder_(fs::path(sceneFile).parent_path().string()) {}
 
@@ -50,9 +38,9 @@ Includes::File Includes::add(const std::string& name, std::string text) {
   return {file, &lists_.back()};
 }
 
-std::optional<Includes::File> Includes::load(const std::string& path) {
+std::optional<Includes::File> Includes::load(const std::string& path, std::string& why) {
   if (const auto found = loaded_.find(path); found != loaded_.end()) return found->second;
-  auto text = readFile(path);
+  auto text = readRegular(path, std::uintmax_t(context_.options.limits.memory), why);
   if (!text) return {};
   return loaded_[path] = add(path, std::move(*text));
 }
@@ -85,7 +73,8 @@ std::string Includes::declaredIn(const std::string& name) const {
       const fs::path& path = entry->path();
       if (path.extension() != ".inc" || !isFile(path) || fs::file_size(path, error) > kLargest)
         continue;
-      const auto text = readFile(path.string());
+      std::string ignored;
+      const auto text = readRegular(path.string(), kLargest, ignored);
       for (const char* directive : {"#declare ", "#macro "})
         if (text && (text->find(directive + name + " ") != std::string::npos ||
                      text->find(directive + name + "(") != std::string::npos))

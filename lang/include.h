@@ -20,8 +20,8 @@ class Includes {
   };
   /// A text under a name, tokenised.
   File add(const std::string& name, std::string text);
-  /// The file's text and tokens, cached; nothing if it cannot be read.
-  std::optional<File> load(const std::string& path);
+  /// The file's text and tokens, cached; nothing, with the reason in `why`, if it cannot be read.
+  std::optional<File> load(const std::string& path, std::string& why);
   /// The path of an included file: beside the including text, in the working directory, then in the
   /// include paths. "" if not found; `tried` receives every path.
   std::string find(const std::string& name, int askingFile, std::vector<std::string>& tried) const;
@@ -37,8 +37,5 @@ class Includes {
   std::map<std::string, File> loaded_;  ///< by path
   std::deque<TokenList> lists_;
 };
-
-/// A whole file; nothing if it is no readable file or too large for spans (4 GB).
-std::optional<std::string> readFile(const std::string& path);
 
 }  // namespace vestige::lang

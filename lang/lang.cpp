@@ -7,6 +7,8 @@
 
 #include <new>
 
+#include <vestige/tools/regular_file.h>
+
 namespace vestige::lang {
 namespace {
 
@@ -74,10 +76,11 @@ Result readSceneText(const std::string& name, const std::string& text, const Sch
 }
 
 Result readScene(const std::string& file, const SchemaSource& schemas, const Options& options) {
-  const auto text = readFile(file);
+  std::string why;
+  const auto text = readRegular(file, std::uintmax_t(options.limits.memory), why);
   if (text) return readSceneText(file, *text, schemas, options);
   Result result;
-  result.diagnostics.error({}, "cannot read the scene '" + file + "': no such file, or not a text");
+  result.diagnostics.error({}, "the scene '" + file + "' " + why);
   result.sources = std::make_shared<Sources>();
   return result;
 }

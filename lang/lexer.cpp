@@ -282,7 +282,7 @@ TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& rep
   list.tokens = Lexer(file, sources, names, budget).run();
   pair(list, reporter);
   constexpr std::size_t kClosing = 48;  // bytes of an entry of the map
-  budget.keep(list.closings.size() * kClosing);
+  budget.keep(std::int64_t(list.closings.size() * kClosing));
   return list;
 }
 

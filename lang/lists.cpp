@@ -99,6 +99,7 @@ Value Parser::entryValue(const Parameter& entry, const std::string& who) {
 }
 
 void Parser::addEntry(List& list, Entry entry) {
+  context_.budget.reserveOne(entry.span, list.entries);
   list.entries.push_back(std::move(entry));
   if (std::int64_t(list.entries.size()) + *context_.elements >
       std::int64_t(context_.options.limits.arrayElements))

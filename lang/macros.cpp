@@ -51,6 +51,9 @@ void Directives::macroParameters(Macro& m) {
   }
 }
 
+/// Bytes of an argument that is no name.
+constexpr std::int64_t kArgumentBytes = sizeof(Symbol) + 64;
+
 // call := name '(' [ argument { ',' argument } ] ')'
 bool Directives::expand(const Token& name) {
   const Cell cell = context_.symbols.find(name.text);
@@ -66,7 +69,9 @@ bool Directives::expand(const Token& name) {
                                                  *name.text + "(...)");
   const Span open = stream_.nextRaw().span;
   std::vector<Cell> cells;
+  Share held = context_.budget.take(open, 0);
   while (!stream_.peek().is(")")) {
+    held.grow(kArgumentBytes);
     cells.push_back(argument(*name.text));
     if (!stream_.accept(",")) break;
   }
@@ -91,7 +96,7 @@ bool Directives::takes(const Macro& m, std::size_t arguments, const Span& call) 
 
 /// Makes the stream continue with the body; its parameters are names in a new table.
 void Directives::readBody(const Macro& m, const std::vector<Cell>& arguments, const Span& call) {
-  const int via = context_.sources.expand(Expansion::Kind::macro, *m.name, call);
+  const int via = context_.sources.expand(Expansion::Kind::macro, m.name, call);
   stream_.push({Frame::Kind::macro, m.list, m.begin, m.end, via, -1});
   for (std::size_t i = 0; i < m.parameters.size(); ++i) {
     const auto& p = m.parameters[i];

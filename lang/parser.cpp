@@ -42,7 +42,7 @@ void Parser::statement(SceneDesc& scene) {
     for (const std::string& w : words_.blockWords()) known.push_back(w);
     context_.reporter.syntaxError(
         t.span, "expected a camera, a light, a shape or a directive, found '" + *t.text + "'" +
-                    didYouMean(*t.text, known));
+                    context_.suggest(t.span, *t.text, known));
   }
 }
 
@@ -56,13 +56,17 @@ void Parser::addToScene(SceneDesc& scene, Block block) {
                                 ", or '#declare Name = " + block.kind + " ...'");
     return;
   }
-  const auto before = std::find_if(scene.blocks.begin(), scene.blocks.end(),
-                                   [&](const Block& b) { return b.kind == block.kind; });
-  if (schema.isSingle && before != scene.blocks.end()) {
-    context_.reporter.warning(block.span, "a second " + block.kind + ": this one counts")
-        .notes.push_back({before->span, "the first one"});
-    scene.blocks.erase(before);
+  if (schema.isSingle) {
+    context_.step(block.span, std::int64_t(scene.blocks.size()));
+    const auto before = std::find_if(scene.blocks.begin(), scene.blocks.end(),
+                                     [&](const Block& b) { return b.kind == block.kind; });
+    if (before != scene.blocks.end()) {
+      context_.reporter.warning(block.span, "a second " + block.kind + ": this one counts")
+          .notes.push_back({before->span, "the first one"});
+      scene.blocks.erase(before);
+    }
   }
+  context_.budget.reserveOne(block.span, scene.blocks);
   scene.blocks.push_back(std::move(block));
 }
 
@@ -424,7 +428,7 @@ void Parser::unknownItem(BlockBuilder& b, const Token& t) {
   std::vector<std::string> known = rows;
   for (const std::string& kind : b.schema().children) known.push_back(kind);
   for (const std::string& name : context_.symbols.names()) known.push_back(name);
-  const std::string near = didYouMean(*t.text, known);
+  const std::string near = context_.suggest(t.span, *t.text, known);
   Diagnostic& d = context_.reporter.error(
       t.span, "'" + b.title() + "' has no parameter '" + *t.text + "'" + near);
   if (near.empty() && !rows.empty()) d.notes.push_back({{}, "it has " + orList(rows)});

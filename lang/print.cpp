@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "lang/lang.h"
+#include "lang/printable.h"
 #include "lang/source.h"
 
 namespace vestige::lang {
@@ -83,7 +84,7 @@ class Printer {
     paint(style);
     out_ << word << ": ";
     paint(kPlain);
-    out_ << text << '\n';
+    out_ << printable(text) << '\n';
     if (span.file < 0) return;
     const auto [line, marks] = marked(span, sources_);
     out_ << (line.empty() ? "" : "  ") << line << "\n  ";
@@ -117,7 +118,8 @@ class Printer {
   }
   std::string where(const Span& span) const {
     const Place place = locate(span, sources_);
-    return place.file + ':' + std::to_string(place.line) + ':' + std::to_string(place.column);
+    return printable(place.file) + ':' + std::to_string(place.line) + ':' +
+           std::to_string(place.column);
   }
 
   std::ostream& out_;

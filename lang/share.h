@@ -27,6 +27,10 @@ class Share {
     std::swap(size_, other.size_);
     return *this;
   }
+  void grow(std::int64_t size) {
+    if (total_) *total_ += size;
+    size_ += size;
+  }
   ~Share() {
     if (total_) *total_ -= size_;
   }

@@ -29,13 +29,15 @@ int Sources::add(std::string name, std::string text) {
   return size() - 1;
 }
 
-int Sources::expand(Expansion::Kind kind, const std::string& name, const Span& call) {
-  const Expansion made{kind, &*names_.insert(name).first, call, depth(call.via) + 1};
+int Sources::expand(Expansion::Kind kind, const std::string* name, const Span& call) {
+  Expansion made{kind, name, call, depth(call.via) + 1};
   if (const auto found = known_.find(made); found != known_.end()) return found->second;
   if (expansions_.size() >= kMostExpansions) return call.via;
   *memory_ += 4 * std::int64_t(sizeof made);  // in the list, which may be half empty, and the map
+  known_[made] = int(expansions_.size());
+  made.name = &*names_.insert(*name).first;  // the texts outlive the reading and its names
   expansions_.push_back(made);
-  return known_[made] = int(expansions_.size()) - 1;
+  return int(expansions_.size()) - 1;
 }
 
 std::size_t Sources::CallHash::operator()(const Expansion& e) const noexcept {

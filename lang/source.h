@@ -35,7 +35,8 @@ class Sources {
   void countOn(Total memory) { memory_ = std::move(memory); }
   int add(std::string name, std::string text);
   /// The same call through the same chain is the same expansion, so that loops cost nothing.
-  int expand(Expansion::Kind kind, const std::string& name, const Span& call);
+  /// Equal names must be equal pointers.
+  int expand(Expansion::Kind kind, const std::string* name, const Span& call);
 
   int size() const noexcept { return int(texts_.size()); }
   const Text& text(int file) const { return texts_[std::size_t(file)]; }

@@ -47,6 +47,7 @@ struct Array {
   std::vector<int> sizes;
   std::vector<Datum> data;  ///< monostate: not yet assigned
   Share share = {};         ///< share of the limit on live elements
+  Share bytes = {};
 };
 
 inline Datum textDatum(std::string s) { return std::make_shared<const std::string>(std::move(s)); }

@@ -18,6 +18,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include <vestige/tools/regular_file.h>
+
 namespace vestige {
 namespace {
 
@@ -207,11 +209,11 @@ void saveCheckpoint(const Film& film, const CheckpointLabel& label, const Effort
 }
 
 Effort loadCheckpoint(Film& film, const CheckpointLabel& label, const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
+  std::string why;
+  std::ifstream in = openRegular(path, why);
+  if (!in) fail(path, "cannot be read: it " + why);
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(path, failed);
-  if (!in || failed)
-    fail(path, "cannot be read: " + (failed ? failed.message() : std::strerror(errno)));
   std::string line;
   std::getline(in, line);
   checkFirstLine(line, path);

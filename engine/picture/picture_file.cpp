@@ -7,6 +7,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include <vestige/tools/regular_file.h>
+
 namespace vestige {
 
 namespace {
@@ -18,6 +20,8 @@ bool isReadable(const std::string& file, std::string& error) {
     error = fmt::format("there is no file '{}'", file);
   else if (std::filesystem::is_directory(status))
     error = fmt::format("'{}' is a folder, not a picture", file);
+  else if (const std::string why = whyNotRegular(file); !why.empty())
+    error = fmt::format("'{}' {}", file, why);
   else if (access(file.c_str(), R_OK) != 0)
     error = fmt::format("no permission to read '{}'", file);
   return error.empty();

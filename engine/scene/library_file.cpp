@@ -7,6 +7,8 @@
 #include <cstring>
 #include <fstream>
 
+#include <vestige/tools/regular_file.h>
+
 namespace vestige {
 namespace {
 
@@ -38,7 +40,9 @@ bool readAt(std::ifstream& in, std::uint64_t offset, T& value) {
 }  // namespace
 
 std::string cutShort(const std::string& file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  std::string why;
+  std::ifstream in = openRegular(file, why);
+  in.seekg(0, std::ios::end);
   const std::uint64_t size = in ? std::uint64_t(in.tellg()) : 0;
   Header header;
   if (size < sizeof header || !readAt(in, 0, header)) return "";

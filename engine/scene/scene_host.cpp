@@ -5,6 +5,8 @@
 
 #include <filesystem>
 
+#include <vestige/tools/regular_file.h>
+
 namespace vestige {
 
 namespace fs = std::filesystem;
@@ -25,11 +27,12 @@ std::string SceneHost::find(const std::string& file, Span span, std::string& err
     const fs::path whole = fs::absolute(path, ignored).lexically_normal();
     if (files_) files_->insert(whole.string());
     if (record_) record_->files.emplace(whole.string(), stampOf(whole.string()));
-    if (fs::is_directory(whole, ignored)) {
-      error = fmt::format("'{}' is a folder, not a file", whole.string());
+    if (fs::exists(whole, ignored)) {
+      const std::string why = whyNotRegular(whole.string());
+      if (why.empty()) return whole.string();
+      error = fmt::format("'{}' {}", whole.string(), why);
       return "";
     }
-    if (fs::exists(whole, ignored)) return whole.string();
     if (places.find(whole.string()) == places.npos)
       places += (places.empty() ? "" : " and ") + whole.string();
   }

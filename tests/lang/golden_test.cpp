@@ -44,8 +44,7 @@ TEST_CASE("diagnostics are as their scenes say", "[lang]") {
 
 TEST_CASE("a scene that cannot be read is an error without a place", "[lang]") {
   const Result result = readScene("no/such/file.scene", schemas(), {});
-  CHECK(printed(result) ==
-        "error: cannot read the scene 'no/such/file.scene': no such file, or not a text\n");
+  CHECK(printed(result) == "error: the scene 'no/such/file.scene' does not exist\n");
   CHECK(result.scene.blocks.empty());
 }
 

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include <vestige/tools/regular_file.h>
+
 namespace vestige::particle {
 namespace {
 
@@ -112,8 +114,9 @@ void saveSolution(const std::string& file, const SolutionKey& key, const Booking
 
 void addSolution(const std::string& file, SolutionKey& key, Booking& booking,
                  Hierarchy& hierarchy) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(file, std::string("cannot be read: ") + std::strerror(errno));
+  std::string why;
+  std::ifstream in = openRegular(file, why);
+  if (!in) fail(file, "cannot be read: it " + why);
   std::string line, word;
   if (!std::getline(in, line) || line != kFirstLine)
     fail(file, "is no radiosity solution of this version");

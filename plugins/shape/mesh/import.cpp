@@ -14,6 +14,8 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include <vestige/tools/regular_file.h>
+
 #include "material.h"
 
 namespace vestige::mesh {
@@ -29,7 +31,7 @@ class WitnessedFiles final : public Assimp::DefaultIOSystem {
   }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     witness_(file);
-    return DefaultIOSystem::Open(file, mode);
+    return whyNotRegular(file).empty() ? DefaultIOSystem::Open(file, mode) : nullptr;
   }
 
  private:
@@ -98,8 +100,9 @@ bool hasPlyHeader(std::ifstream& in) {
 
 /// Readable, not empty, of a kind that is known: said before Assimp says it its own way.
 void checkFile(const std::string& path, const Assimp::Importer& importer) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path)) throw ReadError("cannot be opened");
+  std::string why;
+  std::ifstream in = openRegular(path, why);
+  if (!in) throw ReadError(why);
   if (in.peek() == std::ifstream::traits_type::eof()) throw ReadError("is empty");
   const std::string extension = extensionOf(path);
   if (extension.empty() || !importer.IsExtensionSupported("." + extension))
