@@ -106,11 +106,11 @@ void Directives::declare(const Token& directive) {
                                                   *name.text + "', found " +
                                                   describe(found, context_.sources));
   }
-  const bool isLocal = *directive.text == "local";
+  // Chosen before the value is read: a macro that the value ends with may have locals of this name.
+  const std::size_t table = *directive.text == "local" ? context_.symbols.innermost()
+                                                       : context_.symbols.tableOf(name.text);
   const auto assign = [&](Datum value) {
-    const Cell cell =
-        isLocal ? context_.symbols.local(name.text) : context_.symbols.declare(name.text);
-    *cell = {std::move(value), name.span};
+    *context_.symbols.in(table, name.text) = {std::move(value), name.span};
   };
   try {
     Datum value = parser_.value(ExpressionParser::Place::declaration).value;

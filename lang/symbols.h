@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names and their values: POV-Ray's dynamic stack of tables, main file < include < macro call.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,18 +54,27 @@ class Symbols {
     return nullptr;
   }
   /// #declare: the nearest binding, else a new global one.
-  Cell declare(const std::string* name) {
-    if (Cell cell = find(name)) return cell;
-    return create(tables_.front(), name);
-  }
+  Cell declare(const std::string* name) { return in(tableOf(name), name); }
   /// A parameter of a macro: a binding to the argument in the innermost table.
   void bind(const std::string* name, Cell cell) {
     if (top().insert_or_assign(name, std::move(cell)).second) *memory_ += kEntry;
   }
   /// #local: a binding in the innermost table.
-  Cell local(const std::string* name) {
-    if (const auto found = top().find(name); found != top().end()) return found->second;
-    return create(top(), name);
+  Cell local(const std::string* name) { return in(innermost(), name); }
+
+  std::size_t innermost() const { return tables_.size() - 1; }
+  /// The table with the nearest binding, else the global one.
+  std::size_t tableOf(const std::string* name) const {
+    for (std::size_t t = innermost(); t > 0; --t)
+      if (tables_[t].count(name)) return t;
+    return 0;
+  }
+  /// The binding in one table, made if there is none. A table that has been left: the innermost.
+  Cell in(std::size_t table, const std::string* name) {
+    Table& t = tables_[std::min(table, innermost())];
+    if (const auto found = t.find(name); found != t.end()) return found->second;
+    *memory_ += kEntry;
+    return t[name] = std::make_shared<Symbol>();
   }
   /// #undef: the nearest binding; false if there is none.
   bool undefine(const std::string* name) {
@@ -87,10 +97,6 @@ class Symbols {
  private:
   /// Bytes of a name's entry and its cell, without what the value refers to.
   static constexpr std::int64_t kEntry = sizeof(Symbol) + 80;
-  Cell create(Table& table, const std::string* name) {
-    *memory_ += kEntry;
-    return table[name] = std::make_shared<Symbol>();
-  }
   Total memory_;
   std::vector<Table> tables_;
 };
