@@ -13,6 +13,7 @@
 
 #include "app/options.h"
 #include "app/terminal.h"
+#include "engine/picture/image.h"
 
 namespace vestige::app {
 namespace {
@@ -128,6 +129,10 @@ void addLimits(CLI::App& command, lang::Limits& limits) {
   limit("--max-loop-iterations", limits.loopIterations, kMuch, "turns of all loops together");
   limit("--max-tokens", limits.expandedTokens, kMuch,
         "steps of reading: words, each turn of a loop counted, and other work");
+  const auto setPicture = [](std::int64_t n) { limitPictures(n * 1'000'000); };
+  addInteger(command, "--max-picture", 1, 1'000'000, setPicture,
+             fmt::format("million pixels of a picture file ({})", kMaxPicturePixels / 1'000'000))
+      ->group("Limits on hostile scenes");
   const auto setMemory = [&limits](std::int64_t n) { limits.memory = n << 20; };
   addInteger(command, "--max-memory", 1, kMuch, setMemory,
              fmt::format("MB that reading the text may take ({})", limits.memory >> 20))

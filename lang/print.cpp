@@ -34,6 +34,7 @@ std::vector<std::pair<std::string, std::uint32_t>> glyphs(const std::string& tex
     else
       out.emplace_back(static_cast<unsigned char>(c) < 32 || c == 127 ? "?" : std::string(1, c), i);
   }
+  for (auto& [glyph, at] : out) glyph = printable(glyph);
   return out;
 }
 

@@ -6,8 +6,12 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <stdexcept>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace vestige {
 
@@ -31,6 +35,20 @@ Int128 inUnits(double x) noexcept {
   else if (shift > -64)
     units = Int128((mantissa + (std::uint64_t(1) << (-shift - 1))) >> -shift);
   return x < 0 ? -units : units;
+}
+
+/// Bytes that this process may ever have.
+double wholeMemory() noexcept {
+  const double machine = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+  rlimit limit{};
+  const bool isLimited = getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return isLimited ? std::min(machine, double(limit.rlim_cur)) : machine;
+}
+
+std::string gigabytes(double bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f GB", bytes / 1e9);
+  return text;
 }
 
 /// False if the sum does not fit: it then stays at its largest value.
@@ -62,6 +80,13 @@ Film::Film(int width, int height, Crop crop, const std::vector<std::string>& aov
     layers_.push_back(std::move(*layer));
   }
   const std::size_t pixels = std::size_t(crop.x1 - crop.x0) * std::size_t(crop.y1 - crop.y0);
+  const double bytes = double(pixels) * double(sizeof counts_[0] + kColours * sizeof radiance_[0] +
+                                               stored_ * sizeof sums_[0]);
+  if (bytes > wholeMemory())  // the system would grant it, and end the program later
+    throw std::runtime_error("the film of " + std::to_string(width) + " x " +
+                             std::to_string(height) + " pixels takes " + gigabytes(bytes) +
+                             ", more than this machine's " + gigabytes(wholeMemory()) +
+                             ": choose a smaller resolution or a crop");
   counts_.assign(pixels, 0);
   radiance_.assign(pixels * kColours, 0);
   sums_.assign(pixels * stored_, 0);

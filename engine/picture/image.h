@@ -24,6 +24,11 @@ struct Image {
   std::size_t offset(int x, int y) const { return (std::size_t(y) * width + x) * channels.size(); }
 };
 
+/// Pictures with more pixels are refused, so that a small file cannot claim all memory.
+/// [main thread, before any picture is read]
+void limitPictures(long long pixels);
+inline constexpr long long kMaxPicturePixels = 1LL << 28;  ///< the default
+
 /// Reads any format that OpenImageIO supports, without colour conversion; on failure the width is 0
 /// and `error` is set.
 Image readImage(const std::string& file, std::string& error);

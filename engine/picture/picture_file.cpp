@@ -9,9 +9,13 @@
 
 #include <vestige/tools/regular_file.h>
 
+#include "engine/picture/image.h"
+
 namespace vestige {
 
 namespace {
+
+long long mostPixels = kMaxPicturePixels;
 
 bool isReadable(const std::string& file, std::string& error) {
   std::error_code code;
@@ -34,13 +38,17 @@ bool isSuitable(const OIIO::ImageSpec& spec, const std::string& file, std::strin
     error = fmt::format("'{}' holds a volume, expected a flat picture", file);
   else if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
     error = fmt::format("the picture '{}' is empty", file);
-  else if (spec.width > kMaxPicturePixels / spec.height)
-    error = fmt::format("the picture '{}' is {} x {} pixels large, at most {} million fit", file,
-                        spec.width, spec.height, kMaxPicturePixels / 1000000);
+  else if (spec.width > mostPixels / spec.height)
+    error = fmt::format(
+        "the picture '{}' is {} x {} pixels large, at most {} million are read: --max-picture "
+        "raises the limit",
+        file, spec.width, spec.height, mostPixels / 1000000);
   return error.empty();
 }
 
 }  // namespace
+
+void limitPictures(long long pixels) { mostPixels = pixels; }
 
 std::string reason(std::string message, const std::string& file) {
   if (message.find("could not find a format reader") != message.npos)

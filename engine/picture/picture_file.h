@@ -9,7 +9,7 @@
 namespace vestige {
 
 /// Larger pictures are refused: a broken header must not be able to claim all memory.
-inline constexpr long long kMaxPicturePixels = 1LL << 30, kMaxPictureBytes = 1LL << 34;
+inline constexpr long long kMaxPictureBytes = 1LL << 34;
 
 /// Opens a flat, two-dimensional picture of a size that fits, alpha left as the file holds it. Null
 /// with `error`.

@@ -3,6 +3,9 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <new>
+#include <string_view>
+
 #include "engine/scene/builder.h"
 
 namespace vestige {
@@ -24,7 +27,9 @@ std::shared_ptr<Interface> SceneBuilder::create(const Block& block) {
       span = why.entry >= 0 && why.entry < entries ? blamed.list->entries[why.entry].span
                                                    : blamed.span;
     }
-    error(span, fmt::format("{}: {}", block.kind + " " + block.plugin, why.text));
+    const bool isMemory = std::string_view(why.text) == std::bad_alloc().what();
+    error(span, fmt::format("{} {}: {}", block.kind, block.plugin,
+                            isMemory ? "is too large for the memory of this machine" : why.text));
   }
   return made;
 }

@@ -7,6 +7,9 @@
 namespace vestige {
 namespace {
 
+/// Each sample becomes two triangles, of some 150 bytes with what rays need to find them.
+constexpr std::int64_t kMostSamples = 4096 * 4096;
+
 /// Corner of a piece of landscape on its way through the water level.
 struct Corner {
   Vec3 position, normal;
@@ -24,7 +27,8 @@ class HeightField final : public MeshShape {
     return {.kind = "shape",
             .name = "height_field",
             .summary = "landscape over the unit square from the brightness of an image",
-            .params = {file("file").need().place().doc("a picture: its brightness is the height"),
+            .params = {file("file").need().place().doc(
+                           "a picture of at most 4096 x 4096 texels: its brightness is the height"),
                        boolean("smooth", false).doc("blends the normals of neighbours"),
                        real("water_level", 0).range(0, 1).doc("what lies below is left out")}};
   }
@@ -37,6 +41,10 @@ class HeightField final : public MeshShape {
     if (w_ < 2 || h_ < 2)
       throw PluginError(kFile, "the image is " + std::to_string(w_) + " x " + std::to_string(h_) +
                                    " texels, expected at least 2 x 2");
+    if (std::int64_t(w_) * h_ > kMostSamples)
+      throw PluginError(kFile, "the image is " + std::to_string(w_) + " x " + std::to_string(h_) +
+                                   " texels, at most " + std::to_string(kMostSamples) +
+                                   " become a height field (as 4096 x 4096): scale it down");
     heights_.reserve(std::size_t(w_) * h_);
     for (int y = 0; y < h_; ++y)
       for (int x = 0; x < w_; ++x) heights_.push_back(luminance(image->texel(x, y).colour));
