@@ -15,7 +15,7 @@ class Budget {
  public:
   Budget(const Limits& limits, Reporter& reporter) : limits_(limits), reporter_(reporter) {}
 
-  /// Counts work: a token read, a step of a function, or what takes as long (some 50 ns).
+  /// Counts work: a token read, a step of a function, or what takes as long (some 150 ns).
   void step(const Span& span, std::int64_t count = 1) {
     steps_ += count;
     if (steps_ > limits_.expandedTokens) stopAtSteps(span);

@@ -12,6 +12,9 @@ namespace {
 /// Levels of evaluation for each level of nesting: an expression in parentheses takes several.
 constexpr int kLevelsPerNesting = 4;
 
+/// A node of a function costs more than a token.
+constexpr std::int64_t kStepsANode = 2;
+
 /// IEC 61966-2-1, also below zero, where it is continued as an odd function.
 double decodeSrgb(double x) {
   const double a = std::abs(x);
@@ -39,7 +42,7 @@ double grey(const Numbers& n) { return 0.297 * n.v[0] + 0.589 * n.v[1] + 0.114 *
 Datum Evaluator::evaluate(const Expr& e, Arguments a) {
   if (depth_ > context_.deepest() * kLevelsPerNesting)
     context_.stopTooDeep(e.span, "these functions are");
-  if (calls_ > 0) context_.step(e.span);
+  if (calls_ > 0) context_.step(e.span, kStepsANode);
   ++depth_;
   const auto step = [&]() -> Datum {
     switch (e.kind) {

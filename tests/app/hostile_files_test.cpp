@@ -73,6 +73,38 @@ TEST_CASE("a small file that claims a huge picture is refused", "[app]") {
       mustRefuse(folder, use(text, file), "--max-picture");
 }
 
+TEST_CASE("models that claim more than they hold are refused", "[app]") {
+  const Folder folder;
+  const std::string mesh = "mesh { \"FILE\" }";
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const std::pair<const char*, std::string> files[] = {
+      {"vertices.ply",
+       "ply\nformat binary_little_endian 1.0\nelement vertex 2147483648\nproperty float x\n"
+       "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+       "vertex_indices\nend_header\n"},
+      {"facets.stl", std::string(80, ' ') + "\xff\xff\xff\xff" + std::string(50, '\0')},
+      {"index.obj", corners + "f 1 2 2147483647\n"},
+      {"buffer.gltf",
+       R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4000000000,"uri":"none.bin"}]})"},
+      {"loop.gltf", R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
+                    R"("nodes":[{"children":[1]},{"children":[0]}]})"},
+  };
+  for (const auto& [name, contents] : files) {
+    folder.write(name, contents);
+    mustRefuse(folder, use(mesh, name), name);
+  }
+  folder.write("wide.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100000 +X 100000\n");
+  mustRefuse(folder, use(kUses[0], "wide.hdr"), "wide.hdr");
+}
+
+TEST_CASE("includes that are no texts are refused", "[app]") {
+  const Folder folder;
+  const std::string include = "#include \"FILE\"";
+  for (const char* file : {"/dev/zero", "/dev/stdin", "/", "/proc/self/pagemap", "/proc/self/mem"})
+    mustRefuse(folder, use(include, file), file);
+  mustRefuse(folder, use(include, "a.scene"), "includes itself");
+}
+
 TEST_CASE("a height field has a greatest size", "[app]") {
   const Folder folder;
   folder.write("a.pbm", "P4\n4100 4100\n" + std::string(4104 / 8 * 4100, '\x55'));
