@@ -34,6 +34,7 @@ Json toJson(Severity severity, const Span& span, const std::string& message,
   json["file"] = p.file;
   json["line"] = p.line, json["column"] = p.column;
   json["end_line"] = p.endLine, json["end_column"] = p.endColumn;
+  json["utf16_column"] = p.utf16Column, json["end_utf16_column"] = p.endUtf16Column;
   return json;
 }
 

@@ -74,8 +74,9 @@ void print(std::ostream& out, const Diagnostic& diagnostic, const Sources& sourc
 /// The place of a span, for --json.
 struct Place {
   std::string file;
-  int line = 0, column = 0;        ///< from 1; 0: no place
-  int endLine = 0, endColumn = 0;  ///< one past the end
+  int line = 0, column = 0;                 ///< from 1, columns in characters; 0: no place
+  int endLine = 0, endColumn = 0;           ///< one past the end
+  int utf16Column = 0, endUtf16Column = 0;  ///< the columns in UTF-16 code units
 };
 Place locate(const Span& span, const Sources& sources);
 

@@ -12,11 +12,23 @@ namespace {
 /// recursion does not fill the memory.
 constexpr std::size_t kMostExpansions = 1'000'000;
 
-/// Characters, not bytes, of UTF-8.
-int characters(const std::string& text, std::size_t from, std::size_t to) {
-  return int(std::count_if(text.begin() + std::ptrdiff_t(from), text.begin() + std::ptrdiff_t(to),
-                           [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+/// The bytes of the character that begins at `i`; 1 for a byte that is no UTF-8.
+std::uint32_t characterLength(const std::string& text, std::size_t i) {
+  const auto lead = static_cast<unsigned char>(text[i]);
+  const std::uint32_t length = lead >= 0xF8   ? 1
+                               : lead >= 0xF0 ? 4
+                               : lead >= 0xE0 ? 3
+                               : lead >= 0xC0 ? 2
+                                              : 1;
+  for (std::uint32_t k = 1; k < length; ++k)
+    if (i + k >= text.size() || !isContinuation(text[i + k])) return 1;
+  return length;
 }
+
+/// UTF-16 takes two code units for what is beyond the basic plane, which UTF-8 writes with 4 bytes.
+int utf16Units(std::uint32_t length) { return length == 4 ? 2 : 1; }
 
 }  // namespace
 
@@ -78,19 +90,47 @@ Span Sources::join(Span a, Span b) const {
   return a;
 }
 
+Position Sources::position(int file, std::uint32_t offset) const {
+  const Text& t = text(file);
+  offset = std::min(offset, std::uint32_t(t.text.size()));
+  Position p;
+  p.line = lineOf(file, offset);
+  std::uint32_t i = t.lineStarts[std::size_t(p.line)];
+  while (i < offset) {
+    const std::uint32_t length = characterLength(t.text, i);
+    i += length;
+    ++p.column;
+    p.utf16Column += utf16Units(length);
+  }
+  return p;
+}
+
+std::uint32_t Sources::offset(int file, int line, int utf16Column) const {
+  const Text& t = text(file);
+  const int last = int(t.lineStarts.size()) - 1;
+  const auto l = std::size_t(std::clamp(line, 0, last));
+  std::uint32_t end = int(l) < last ? t.lineStarts[l + 1] - 1 : std::uint32_t(t.text.size());
+  std::uint32_t i = t.lineStarts[l];
+  if (end > i && t.text[end - 1] == '\r') --end;
+  while (i < end) {
+    const std::uint32_t length = characterLength(t.text, i);
+    utf16Column -= utf16Units(length);
+    if (utf16Column < 0) break;
+    i += length;
+  }
+  return i;
+}
+
 Place locate(const Span& span, const Sources& sources) {
   Place place;
   if (span.file < 0 || span.file >= sources.size()) return place;
-  const Text& text = sources.text(span.file);
-  const auto position = [&](std::uint32_t offset, int& line, int& column) {
-    offset = std::min(offset, std::uint32_t(text.text.size()));
-    const int l = sources.lineOf(span.file, offset);
-    line = l + 1;
-    column = characters(text.text, text.lineStarts[std::size_t(l)], offset) + 1;
-  };
-  place.file = text.name;
-  position(span.begin, place.line, place.column);
-  position(std::max(span.begin, span.end), place.endLine, place.endColumn);
+  const Position begin = sources.position(span.file, span.begin);
+  const Position end = sources.position(span.file, std::max(span.begin, span.end));
+  place.file = sources.text(span.file).name;
+  place.line = begin.line + 1, place.column = begin.column + 1;
+  place.utf16Column = begin.utf16Column + 1;
+  place.endLine = end.line + 1, place.endColumn = end.column + 1;
+  place.endUtf16Column = end.utf16Column + 1;
   return place;
 }
 

@@ -29,6 +29,13 @@ struct Expansion {
   int depth = 1;  ///< length of the chain
 };
 
+/// A place in a text, all from 0.
+struct Position {
+  int line = 0;
+  int column = 0;       ///< characters before it in its line
+  int utf16Column = 0;  ///< UTF-16 code units before it in its line, as language servers count
+};
+
 class Sources {
  public:
   /// Texts and expansions from now on count as bytes of `memory`.
@@ -46,6 +53,11 @@ class Sources {
   std::string excerpt(const Span& span, std::size_t most = std::string::npos) const;
   /// From 0.
   int lineOf(int file, std::uint32_t offset) const;
+  /// An offset beyond the text counts as its end. A byte that is no UTF-8 is one character.
+  Position position(int file, std::uint32_t offset) const;
+  /// The inverse. A line or column beyond the text is the last one there is; the middle of a
+  /// character is its beginning.
+  std::uint32_t offset(int file, int line, int utf16Column) const;
   /// The span from the beginning of one to the end of the other; if they came through different
   /// calls, in the innermost text that contains both.
   Span join(Span a, Span b) const;

@@ -141,6 +141,18 @@ TEST_CASE("check --json gives places to editors", "[app]") {
   CHECK_THAT(d.at("file").get<std::string>(), containsText("a.scene"));
 }
 
+TEST_CASE("check --json counts columns in characters and in UTF-16 code units", "[app]") {
+  const Folder folder;
+  // U+1F600: one character, two code units, four bytes.
+  const std::string scene = folder.write("a.scene", "/* \xF0\x9F\x98\x80 */ spere { 0, 1 }\n");
+  const Run r = runVestige({"check", "--syntax", scene, "--json"});
+  const auto d = nlohmann::json::parse(r.out).at("diagnostics").at(0);
+  CHECK(d.at("column") == 9);
+  CHECK(d.at("utf16_column") == 10);
+  CHECK(d.at("end_column") == 14);
+  CHECK(d.at("end_utf16_column") == 15);
+}
+
 TEST_CASE("a scene without mistakes passes; --syntax opens no file", "[app]") {
   const Folder folder;
   const Run fine = check(folder, smallScene());

@@ -262,7 +262,7 @@ std::string shown(const std::string& text) {
   std::istringstream said(debugOf(text, withLibrary()));
   for (std::string line; std::getline(said, line);) {
     if (!line.empty() && line[0] == '@')
-      lines += (lines.empty() ? "" : "|") + line.substr(1);
+      lines.append(lines.empty() ? "" : "|").append(line, 1, line.npos);
     else
       rest += line;
   }
@@ -344,7 +344,7 @@ TEST_CASE("what POV-Ray's manual describes and its files lack", "[lang]") {
     const double peak = 0.25;
     const double number =
         each < peak ? 1 + 4 * std::sqrt(each * peak) : 5 - 4 * std::sqrt((1 - each) * (1 - peak));
-    expected += (expected.empty() ? "" : "|") + std::to_string(number);
+    expected.append(expected.empty() ? "" : "|").append(std::to_string(number));
   }
   CHECK(isNear(is("rand", "#declare R = seed(7); #for (I, 1, 3) ShowN(Rand_Tri(1, 5, 2, R)) #end"),
                expected, 2e-6));
