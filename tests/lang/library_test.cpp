@@ -364,8 +364,7 @@ TEST_CASE("what POV-Ray's manual describes and its files lack", "[lang]") {
 TEST_CASE("the library's files can be included twice and together", "[lang]") {
   std::string text = kPrelude;
   for (int round = 0; round < 2; ++round)
-    for (const char* file :
-         {"colors", "consts", "math", "transforms", "rand", "arrays", "strings", "shapes"})
+    for (const char* file : {"colors", "consts", "math", "transforms", "rand", "arrays", "strings"})
       text += included(file);
   const Result r = read(text + "ShowN(1)", withLibrary());
   INFO(printed(r));
