@@ -3,8 +3,6 @@
 // 30 s and 1 GB more than the program itself, and an error with its place.
 #include "support/catch.h"
 
-#include <iostream>
-
 #include "tests/lang/measured.h"
 #include "tests/lang/schemas.h"
 
@@ -266,7 +264,7 @@ void check(const Row& row) {
   const Measured m = measured(row.text());
   INFO(row.name);
   INFO(m.errors.substr(0, 300));
-  std::cout << row.name << ": " << m.megabytes << " MB, " << m.seconds << " s" << std::endl;
+  INFO(m.megabytes << " MB, " << m.seconds << " s");
   CHECK(m.signal == 0);
   CHECK(m.megabytes < kMostMegabytes);
   CHECK_THAT(m.errors, containsText(row.error));

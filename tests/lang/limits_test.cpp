@@ -2,7 +2,6 @@
 // Hostile text costs bounded time and memory, and no text at all crashes the reader.
 #include "support/catch.h"
 
-#include <chrono>
 #include <random>
 
 #include "tests/lang/schemas.h"
@@ -37,6 +36,7 @@ TEST_CASE("each limit has its message and its flag", "[lang]") {
   o.limits.blocks = 3000;
   o.limits.arrayElements = 1000;
   o.limits.errors = 5;
+  o.limits.memory = 600'000;
   struct Row {
     std::string text;
     const char* flag;
@@ -67,6 +67,9 @@ TEST_CASE("each limit has its message and its flag", "[lang]") {
        "} } #end",
        "--max-blocks"},
       {"#declare A = array[1e9];", "--max-array-elements"},
+      {"#declare S = str(1, 900, 0); #declare A = array[900]; #for (I, 0, 899) #declare A[I] = "
+       "strupr(S); #end",
+       "--max-memory"},
       {"#declare A = array[1000]; #declare B = array[1];", "--max-array-elements"},
       {repeated("@ sphere { 0, 1 }\n", 100), "--max-errors"},
       {repeated("#if (1)\n", 100), "--max-errors"},
@@ -257,9 +260,8 @@ TEST_CASE("any soup of tokens is read to its end", "[lang]") {
   Options o;
   o.limits.loopIterations = 200;
   o.limits.expandedTokens = 20'000;
-  const auto start = std::chrono::steady_clock::now();
   std::mt19937 random(1);
-  for (int round = 0; round < 3000; ++round) {
+  for (int round = 0; round < 400; ++round) {  // ./test fuzz goes on
     std::string text;
     const int length = 1 + int(random() % 120);
     for (int i = 0; i < length; ++i) text += words[random() % words.size()] + ' ';
@@ -268,8 +270,6 @@ TEST_CASE("any soup of tokens is read to its end", "[lang]") {
     for (const Diagnostic& d : r.diagnostics.list()) CHECK(!d.message.empty());
     printed(r);
   }
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  CHECK(taken.count() < 60);  // a second or so, on a machine with nothing else to do
 }
 
 TEST_CASE("a good scene with pieces cut out or doubled is read to its end", "[lang]") {
@@ -293,7 +293,7 @@ light area { <-1, 5, -1>, <2, 0, 0>, <0, 0, 2> radiance rgb 10 }
   o.limits.expandedTokens = 100'000;
   REQUIRE(!read(good, o).diagnostics.hasErrors());
   std::mt19937 random(2);
-  for (int round = 0; round < 1500; ++round) {
+  for (int round = 0; round < 200; ++round) {
     std::string text = good;
     for (int cut = 0; cut < 1 + int(random() % 3); ++cut) {
       const std::size_t at = random() % text.size(), n = random() % 12;
