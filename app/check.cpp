@@ -25,11 +25,10 @@ const char* word(Severity s) {
   return s == Severity::error ? "error" : s == Severity::warning ? "warning" : "note";
 }
 
-/// What a message says and where, as editors want it. No place: "file" is null.
-Json toJson(Severity severity, const Span& span, const std::string& message,
-            const lang::Sources& sources) {
+/// A place as editors want it. None: "file" is null.
+Json placeOf(const Span& span, const lang::Sources& sources) {
   const lang::Place p = lang::locate(span, sources);
-  Json json = {{"severity", word(severity)}, {"message", message}, {"file", nullptr}};
+  Json json = {{"file", nullptr}};
   if (p.line == 0) return json;
   json["file"] = p.file;
   json["line"] = p.line, json["column"] = p.column;
@@ -38,14 +37,36 @@ Json toJson(Severity severity, const Span& span, const std::string& message,
   return json;
 }
 
+/// What a message says and where.
+Json toJson(Severity severity, const Span& span, const std::string& message,
+            const lang::Sources& sources) {
+  Json json = {{"severity", word(severity)}, {"message", message}};
+  json.update(placeOf(span, sources));
+  return json;
+}
+
+/// The edits that mend diagnostic `i`: places as above, and the text to put there.
+Json editsOf(const lang::Result& text, std::size_t i) {
+  Json list = Json::array();
+  for (const lang::Edit& e : text.edits) {
+    if (e.diagnostic != i) continue;
+    Json edit = placeOf(e.span, *text.sources);
+    edit["text"] = e.text;
+    list.push_back(edit);
+  }
+  return list;
+}
+
 void printJson(const lang::Result& text) {
   Json list = Json::array();
   int warnings = 0;
   for (const Diagnostic& d : text.diagnostics.list()) {
+    const std::size_t index = list.size();
     Json entry = toJson(d.severity, d.span, d.message, *text.sources);
     entry["notes"] = Json::array();
     for (const Note& n : d.notes)
       entry["notes"].push_back(toJson(Severity::note, n.span, n.message, *text.sources));
+    entry["edits"] = editsOf(text, index);
     list.push_back(entry);
     warnings += d.severity == Severity::warning;
   }

@@ -19,8 +19,8 @@ namespace vestige::lang {
 inline constexpr int kDeepestNesting = 1000;
 
 struct Context {
-  Context(const Options& o, Sources& t, Diagnostics& d)
-      : options(o), sources(t), reporter(d, o.limits.errors), budget(o.limits, reporter) {
+  Context(const Options& o, Sources& t, Diagnostics& d, Edits& e)
+      : options(o), sources(t), reporter(d, e, o.limits.errors), budget(o.limits, reporter) {
     sources.countOn(budget.bytes());
   }
 
@@ -57,12 +57,16 @@ struct Context {
                             " elements: --max-array-elements raises the limit");
   }
   void step(const Span& span, std::int64_t count = 1) { budget.step(span, count); }
-  /// A suggestion for a misspelt word, or nothing. Comparing it with each name is work.
+  /// "; did you mean 'x'?" for a misspelt word, which the edit of the next diagnostic replaces; or
+  /// nothing. Comparing it with each name is work.
   std::string suggest(const Span& span, const std::string& word,
                       const std::vector<std::string>& known) {
     constexpr std::int64_t kStepsAName = 8;
     step(span, kStepsAName * std::int64_t(known.size()));
-    return didYouMean(word, known);
+    const std::string near = nearestWord(word, known);
+    if (near.empty() || near == word) return "";
+    reporter.offer(span, near);
+    return "; did you mean '" + near + "'?";
   }
 };
 

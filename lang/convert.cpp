@@ -174,8 +174,9 @@ class Converter {
     if (!s) return mismatch();
     const auto& all = row_.choices;
     if (std::find(all.begin(), all.end(), **s) != all.end()) return textOf(*s);
+    const std::string near = nearestWord(**s, all);
     return fail(who_ + " takes " + expectation(row_) + ", found '" + **s + "'" +
-                didYouMean(**s, all));
+                (near.empty() ? near : "; did you mean '" + near + "'?"));
   }
 
   bool isInRange(const Value& value, int size) {

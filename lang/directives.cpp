@@ -44,7 +44,8 @@ void Directives::obey(const Token& directive) {
     context_.reporter.syntaxError(
         directive.span,
         "no directive is called '#" + *directive.text + "'" +
-            (instead ? std::string(": ") + instead : didYouMean("#" + *directive.text, known)));
+            (instead ? std::string(": ") + instead
+                     : context_.suggest(directive.span, "#" + *directive.text, known)));
   } catch (const SyntaxError&) {
     skipStatement(directive, level);
   }
@@ -126,6 +127,7 @@ void Directives::declare(const Token& directive) {
 /// POV-Ray requires ';' after numbers, vectors and colours only.
 void Directives::needSemicolon(const Datum& value, const std::string& name) {
   if (stream_.acceptRaw(";") || !std::holds_alternative<Numbers>(value)) return;
+  context_.reporter.offer(stream_.behindLast(), ";");
   context_.reporter.error(stream_.behindLast(), "expected ';' after the value of '" + name + "'");
 }
 

@@ -175,6 +175,7 @@ void ExpressionParser::undeclared(const Token& name, const std::string& role) {
   const std::string file = context_.declaredIn ? context_.declaredIn(*name.text) : "";
   if (!file.empty()) hint = ": it is declared in '" + file + "', which is not included";
   const char* instead = insteadOf(*name.text);
+  if (instead || !file.empty()) context_.reporter.withdraw();
   context_.reporter.error(name.span, instead
                                          ? "'" + *name.text + "' is a word of POV-Ray's: " + instead
                                          : "no " + role + " is called '" + *name.text + "'" + hint);

@@ -17,7 +17,7 @@ class Reader {
  public:
   Reader(const std::string& name, const SchemaSource& schemas, const Options& options,
          Sources& sources, Result& result)
-      : context_(options, sources, result.diagnostics),
+      : context_(options, sources, result.diagnostics, result.edits),
         words_(schemas),
         stream_(context_),
         parser_(context_, stream_, words_),

@@ -9,6 +9,8 @@
 
 #include <vestige/schema.h>
 
+#include "lang/edit.h"
+
 namespace vestige::lang {
 
 class Sources;  // lang/source.h: texts and expansions that spans refer to
@@ -58,6 +60,7 @@ struct Options {
 struct Result {
   SceneDesc scene;
   Diagnostics diagnostics;
+  Edits edits;  ///< that would mend some of the diagnostics
   std::shared_ptr<const Sources> sources;
 };
 

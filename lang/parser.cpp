@@ -171,13 +171,13 @@ void Parser::unknownPlugin(const std::string& kind, const Token& found, const st
   if (found.kind != Token::Kind::name) expressions_.unexpected(list + " after '" + kind + "'");
   const std::vector<std::string> plugins = known;
   for (const std::string& name : context_.symbols.names()) known.push_back(name);
-  const std::string near = didYouMean(*found.text, known);
   if (const Cell cell = context_.symbols.find(found.text)) {
     if (isBroken(cell->value)) throw SyntaxError{};  // already reported where it was declared
     context_.reporter.syntaxError(found.span, "expected a " + kind + ", found " +
                                                   describe(cell->value) + ", which '" +
                                                   *found.text + "' stands for");
   }
+  const std::string near = context_.suggest(found.span, *found.text, known);
   Diagnostic& d = context_.reporter.error(
       found.span, "no " + kind + " is called '" + *found.text + "'" +
                       (near.empty() ? ": expected " + list + ", or a declared one" : near));

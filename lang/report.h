@@ -7,6 +7,8 @@
 
 #include <vestige/diagnostic.h>
 
+#include "lang/edit.h"
+
 namespace vestige::lang {
 
 /// A syntax error. Already reported; caught where parsing can continue.
@@ -16,11 +18,19 @@ struct Stop {};
 
 class Reporter {
  public:
-  Reporter(Diagnostics& diagnostics, int mostErrors)
-      : diagnostics_(diagnostics), mostErrors_(mostErrors) {}
+  Reporter(Diagnostics& diagnostics, Edits& edits, int mostErrors)
+      : diagnostics_(diagnostics), edits_(edits), mostErrors_(mostErrors) {}
+
+  /// The edit that mends what is reported next; it is forgotten if that is a repetition.
+  void offer(const Span& span, std::string text) {
+    offered_ = {Edit{diagnostics_.list().size(), span, std::move(text)}};
+  }
+  void withdraw() { offered_.clear(); }
 
   /// Reports an error. The same message at the same place, as in a loop, is reported once.
   Diagnostic& error(const Span& span, const std::string& message) {
+    const Edits offered = std::move(offered_);
+    offered_.clear();
     if (!isNew(span, message)) {
       if (++repeats_ > kMostRepeats) throw Stop{};  // has been reported, and costs time
       return discarded();
@@ -32,11 +42,15 @@ class Reporter {
                              std::to_string(mostErrors_));
       throw Stop{};
     }
+    edits_.insert(edits_.end(), offered.begin(), offered.end());
     return diagnostics_.error(span, shortened(message));
   }
   Diagnostic& warning(const Span& span, const std::string& message) {
+    const Edits offered = std::move(offered_);
+    offered_.clear();
     if (warnings_ >= kMostWarnings || !isNew(span, message)) return discarded();
     ++warnings_;
+    edits_.insert(edits_.end(), offered.begin(), offered.end());
     return diagnostics_.warning(span, shortened(message));
   }
   [[noreturn]] void syntaxError(const Span& span, const std::string& message) {
@@ -66,17 +80,13 @@ class Reporter {
   }
 
   Diagnostics& diagnostics_;
+  Edits& edits_;
+  Edits offered_;  ///< none or one
   int mostErrors_;
   int warnings_ = 0;
   int repeats_ = 0;
   std::unordered_set<std::size_t> seen_;
   Diagnostic ignored_;  ///< receives the notes of a repeated error
 };
-
-/// "; did you mean 'x'?", or nothing.
-inline std::string didYouMean(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = nearestWord(word, known);
-  return near.empty() || near == word ? "" : "; did you mean '" + near + "'?";
-}
 
 }  // namespace vestige::lang

@@ -138,6 +138,10 @@ TEST_CASE("check --json gives places to editors", "[app]") {
   CHECK(d.at("line") == 5);
   CHECK(d.at("column") == 28);
   CHECK(d.at("end_column") == 36);
+  REQUIRE(d.at("edits").size() == 1);
+  CHECK(d.at("edits").at(0).at("text") == "exponent");
+  CHECK(d.at("edits").at(0).at("utf16_column") == 28);
+  CHECK(d.at("edits").at(0).at("end_utf16_column") == 36);
   CHECK_THAT(d.at("file").get<std::string>(), containsText("a.scene"));
 }
 
