@@ -279,6 +279,7 @@ class Compiler {
   }
 
   void push(Program& p, Program::Step step) {
+    context_.budget.reserveOne(use_, p.steps);
     p.steps.push_back(std::move(step));
     ++p.cost;
   }

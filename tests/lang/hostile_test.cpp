@@ -224,6 +224,12 @@ const Row kSlow[] = {
               times(1000, "x, ") + "y) }; #end";
      },
      kMemory},
+    {"own: blocks with long functions",
+     [] {
+       const std::string sum = "max(" + times(100, "x, ") + "y)";
+       return forever("isosurface { function { max(" + times(100, sum + ", ") + "z) } }");
+     },
+     "raises the limit"},
     {"own: functions that call each other twice",
      [] {
        std::string all = "#declare F0 = function(a) { a + 1 }; ";
