@@ -81,9 +81,8 @@ std::vector<Query> raysOf(Scene& scene, int samples) {
                           .wantsJacobian = true};
   Counters counters;
   const auto sample = [&](int x, int y, int i) {
-    std::optional<StartedPath> path =
-        startPath(source, x, y, std::uint32_t(i), {.counters = counters});
-    if (path) scene.integrator().estimate(path->context);
+    StartedPath path = startPath(source, x, y, std::uint32_t(i), {.counters = counters});
+    if (!isBlack(path.weight)) scene.integrator().estimate(path.context);
   };
   for (int ty = 0; ty < height; ty += kTile)
     for (int tx = 0; tx < width; tx += kTile)

@@ -43,9 +43,16 @@ std::optional<Broken> brokenPromise(const BrdfCase& c, const ScatterPoint& p, Ve
   return std::nullopt;
 }
 
+bool isSame(const std::optional<ScatterSample>& a, const std::optional<ScatterSample>& b) {
+  if (!a || !b) return !a && !b;
+  return a->toNext == b->toNext && a->weight == b->weight && a->lobe == b->lobe;
+}
+
 std::optional<Broken> brokenPromise(const BrdfCase& c, const ScatterPoint& p, ScatterNumbers n,
                                     Vec3 other) {
   const auto s = c.brdf->sample(p, n);
+  if (!c.brdf->usesLobeNumber() && !isSame(s, c.brdf->sample(p, {Real(0), n.u})))
+    return Broken{"usesLobeNumber()", "sample() depends on the lobe number"};
   if (s)
     if (const auto broken = brokenPromise(*s)) return broken;
   const ScatterJacobian j = c.brdf->sampleDerivatives(p, n);

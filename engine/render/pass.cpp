@@ -31,10 +31,9 @@ void samplePixel(const Job& job, int x, int y, std::uint32_t index, int ownAovs,
   Aovs aovs;
   aovs.own = {own.data(), std::size_t(ownAovs)};
   ++counters.paths;
-  std::optional<StartedPath> path =
-      startPath(job.source, x, y, index, {.counters = counters, .aovs = &aovs});
-  if (!path) return job.film.add(x, y, {}, aovs, counters);
-  const Rgb radiance = path->weight * job.integrator.estimate(path->context);
+  StartedPath path = startPath(job.source, x, y, index, {.counters = counters, .aovs = &aovs});
+  if (isBlack(path.weight)) return job.film.add(x, y, {}, aovs, counters);
+  const Rgb radiance = path.weight * job.integrator.estimate(path.context);
   if (aovs.depth > 0) aovs.position += job.source.scene.middle;
   job.film.add(x, y, radiance, aovs, counters);
 }

@@ -240,9 +240,9 @@ Rgb inspectSample(Scene& scene, const FilmShape& film, int x, int y, std::uint32
       .declaredSamples = std::uint64_t(wantedSamples(scene.integrator(), options)),
       .wantsJacobian = true};
   Counters counters;
-  std::optional<StartedPath> path =
-      startPath(source, x, y, index, {.counters = counters, .record = &record});
-  return path ? path->weight * scene.integrator().estimate(path->context) : Rgb{};
+  StartedPath path = startPath(source, x, y, index, {.counters = counters, .record = &record});
+  if (isBlack(path.weight)) return {};
+  return path.weight * scene.integrator().estimate(path.context);
 }
 
 }  // namespace vestige

@@ -17,8 +17,8 @@ RayJacobian filmJacobian(const PathSource& source, const CameraNumbers& numbers,
 
 }  // namespace
 
-std::optional<StartedPath> startPath(const PathSource& source, int x, int y, std::uint32_t index,
-                                     const PathOutputs& outputs) noexcept {
+StartedPath startPath(const PathSource& source, int x, int y, std::uint32_t index,
+                      const PathOutputs& outputs) noexcept {
   const Sampler sampler(std::uint32_t(x), std::uint32_t(y), index, source.seed);
   const Vec2 u = sampler.pair(dimension::kFilm);
   const FilterOffset dx = source.filter.sample(u.x);
@@ -28,22 +28,23 @@ std::optional<StartedPath> startPath(const PathSource& source, int x, int y, std
       {(Real(x) + Real(0.5) + dx.offset) / w, (Real(y) + Real(0.5) + dy.offset) / h},
       source.camera.variables() > 2 ? sampler.pair(dimension::kLens) : Vec2{},
       w / h};
-  const std::optional<CameraSample> ray = source.camera.sample(numbers);
-  if (!ray) return std::nullopt;
+  constexpr CameraSample kNone{{}, {}, {}};
+  const CameraSample ray = source.camera.sample(numbers).value_or(kNone);
+  const bool isSeen = !isBlack(ray.weight);
   const Real time = 0;  // nothing moves yet; dimension::kTime is reserved for it
-  return StartedPath{
-      {.scene = source.scene,
-       .sampler = sampler,
-       .ray = {ray->origin, ray->direction, 0, kInfinity, time, RayKind::camera,
-               source.scene.mediaAt(ray->origin)},
-       .jacobian = source.wantsJacobian ? filmJacobian(source, numbers, dx, dy) : RayJacobian{},
-       .cameraVariables = source.camera.variables(),
-       .declaredSamples = source.declaredSamples,
-       .counters = outputs.counters,
-       .aovs = outputs.aovs,
-       .wantsFootprint = source.wantsFootprint,
-       .record = outputs.record},
-      ray->weight};
+  return {{.scene = source.scene,
+           .sampler = sampler,
+           .ray = {ray.origin, ray.direction, 0, kInfinity, time, RayKind::camera,
+                   source.scene.mediaAt(ray.origin)},
+           .jacobian = source.wantsJacobian && isSeen ? filmJacobian(source, numbers, dx, dy)
+                                                      : RayJacobian{},
+           .cameraVariables = source.camera.variables(),
+           .declaredSamples = source.declaredSamples,
+           .counters = outputs.counters,
+           .aovs = outputs.aovs,
+           .wantsFootprint = source.wantsFootprint,
+           .record = outputs.record},
+          ray.weight};
 }
 
 }  // namespace vestige

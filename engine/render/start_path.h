@@ -26,12 +26,11 @@ struct PathOutputs {
 
 struct StartedPath {
   PathContext context;
-  Rgb weight;  ///< of the radiance that estimate() returns
+  Rgb weight;  ///< of the radiance that estimate() returns; black: no ray leaves the camera there
 };
 
-/// Sample `index` of pixel (x, y); nullopt: the camera sends no ray there, and the sample is black.
-/// [any thread]
-std::optional<StartedPath> startPath(const PathSource& source, int x, int y, std::uint32_t index,
-                                     const PathOutputs& outputs) noexcept;
+/// Sample `index` of pixel (x, y). [any thread]
+StartedPath startPath(const PathSource& source, int x, int y, std::uint32_t index,
+                      const PathOutputs& outputs) noexcept;
 
 }  // namespace vestige

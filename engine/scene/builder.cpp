@@ -21,7 +21,8 @@ SceneBuilder::SceneBuilder(Scene& scene, const SceneDesc& description, const Reg
             options.cache ? options.cache->textures_.get() : nullptr) {
   host_.setNested({[this](const Block* b) { return nestedBrdf(b); },
                    [this](const Block& b) { return nestedPigment(b); },
-                   [this](const Block& b) { return nestedMedium(b); }});
+                   [this](const Block& b) { return nestedMedium(b); },
+                   [this](const Block& b) { return nestedPhase(b); }});
 }
 
 bool SceneBuilder::build() {

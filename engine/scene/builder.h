@@ -84,6 +84,7 @@ class SceneBuilder {
   NestedBrdf nestedBrdf(const Block* block);
   std::shared_ptr<const Pigment> nestedPigment(const Block& block);
   std::shared_ptr<const Medium> nestedMedium(const Block& block);
+  std::shared_ptr<const PhaseFunction> nestedPhase(const Block& block);
   bool isInvertible(const Affine& transform, Span place);
   /// A block's span, or that of the shape whose file brought the block along.
   Span at(Span span) const { return span.file >= 0 ? span : place_; }

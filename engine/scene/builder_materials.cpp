@@ -139,6 +139,20 @@ class NoBrdf final : public Brdf {
   }
 };
 
+/// Stand in for a medium and a phase function that were refused.
+struct NoPhase final : PhaseFunction {
+  ScatterValue evaluate(Vec3, Vec3) const noexcept override { return {}; }
+  std::optional<PhaseSample> sample(Vec3, Vec2) const noexcept override { return std::nullopt; }
+};
+struct Vacuum final : Medium {
+  FreeFlight fly(const Ray& ray, FlightNumbers) const noexcept override {
+    return {false, ray.tMax, {1, 1, 1}};
+  }
+  Rgb transmittance(const Ray&, FlightNumbers) const noexcept override { return {1, 1, 1}; }
+  const PhaseFunction& phase() const noexcept override { return nothing; }
+  NoPhase nothing;
+};
+
 /// A pigment inside another: the outer one asks it in the outer one's space.
 class InnerPigment final : public Pigment {
  public:
@@ -192,19 +206,16 @@ std::shared_ptr<const Medium> SceneBuilder::nestedMedium(const Block& block) {
   const Span place = host_.place();
   std::shared_ptr<const Medium> made = create<Medium>(block);
   host_.setPlace(place);
-  struct Isotropic final : PhaseFunction {
-    ScatterValue evaluate(Vec3, Vec3) const noexcept override { return {}; }
-    std::optional<PhaseSample> sample(Vec3, Vec2) const noexcept override { return std::nullopt; }
-  };
-  struct Vacuum final : Medium {
-    FreeFlight fly(const Ray& ray, FlightNumbers) const noexcept override {
-      return {false, ray.tMax, {1, 1, 1}};
-    }
-    Rgb transmittance(const Ray&, FlightNumbers) const noexcept override { return {1, 1, 1}; }
-    const PhaseFunction& phase() const noexcept override { return phase_; }
-    Isotropic phase_;
-  };
-  return made ? made : std::make_shared<Vacuum>();
+  if (!made) made = std::make_shared<Vacuum>();
+  return made;
+}
+
+std::shared_ptr<const PhaseFunction> SceneBuilder::nestedPhase(const Block& block) {
+  const Span place = host_.place();
+  std::shared_ptr<const PhaseFunction> made = create<PhaseFunction>(block);
+  host_.setPlace(place);
+  if (!made) made = std::make_shared<NoPhase>();
+  return made;
 }
 
 }  // namespace vestige

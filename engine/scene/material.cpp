@@ -148,6 +148,8 @@ void interact(const Material& material, const Surface& surface, Vec3 toPrev,
   const Sides eta = indicesAt(material, surface, x.point.inputs, indices);
   x.point.etaPrev = behind ? eta.behind : eta.inFront;
   x.point.etaNext = behind ? eta.inFront : eta.behind;
+  x.receiver = {surface.position, x.frame.n, surface.time,
+                (behind ? surface.mediaBehind : surface.mediaInFront).top()};
   x.opacity = material.isTranslucent ? material.cut(x.point.inputs.rgb(material.opacity)) : grey(1);
 }
 

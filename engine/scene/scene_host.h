@@ -47,12 +47,16 @@ class SceneHost final : public Host {
   std::shared_ptr<const Medium> medium(const Block& block) override {
     return nested_.medium(block);
   }
+  std::shared_ptr<const PhaseFunction> phase(const Block& block) override {
+    return nested_.phase(block);
+  }
 
   /// Who makes plugins inside others: the builder.
   struct Nested {
     std::function<NestedBrdf(const Block*)> brdf;
     std::function<std::shared_ptr<const Pigment>(const Block&)> pigment;
     std::function<std::shared_ptr<const Medium>(const Block&)> medium;
+    std::function<std::shared_ptr<const PhaseFunction>(const Block&)> phase;
   };
   void setNested(Nested nested) { nested_ = std::move(nested); }
   /// Where spans point that a plugin did not set: at the block it was made for.

@@ -44,10 +44,7 @@ struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
   void findCameraMedia();
 
   bool intersect(const Ray& ray, Surface& surface) const noexcept override {
-    if (!media.isRestricted()) return meet(ray, surface);
-    Ray seeing = ray;
-    seeing.media = media.seenBy(ray.media, ray.kind);
-    return meet(seeing, surface);
+    return media.isRestricted() ? meet(seenBy(ray), surface) : meet(ray, surface);
   }
   Rgb transmittance(const Ray& ray) const noexcept override;
   MediumStack mediaAt(Vec3 position) const noexcept override {
@@ -88,6 +85,11 @@ struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
   }
 
  private:
+  /// The ray among the solids that its kind meets.
+  [[gnu::noinline]] Ray seenBy(Ray ray) const noexcept {
+    ray.media = media.seenBy(ray.media, ray.kind);
+    return ray;
+  }
   bool meet(const Ray& ray, Surface& surface) const noexcept {
     return world.intersect(ray, surface) &&
            (surface.solid == 0 || media.follow(world, ray, surface));

@@ -23,9 +23,8 @@ struct Query {
   const Ray* ray = nullptr;  ///< in full precision, for analytic shapes
   const std::vector<Item>* items = nullptr;
   const std::vector<int>* itemOfGeometry = nullptr;
-  Layers* layers = nullptr;  ///< null: whatever is met blocks
-  int item = -1;             ///< of the nearest analytic hit so far
-  ShapeHit hit = {};         ///< where
+  Layers* layers = nullptr;    ///< null: whatever is met blocks
+  TreeHit* nearest = nullptr;  ///< receives the nearest analytic hit
 };
 
 std::optional<ShapeHit> meet(const Item& item, const Ray& world, float tFar) noexcept {
@@ -72,7 +71,7 @@ void intersectPrimitive(const RTCIntersectFunctionNArguments* a) {
   const int item = group.members[a->primID];
   const std::optional<ShapeHit> hit = meet((*group.items)[item], *query.ray, ray.ray.tfar);
   if (!hit) return;
-  query.item = item, query.hit = *hit;
+  *query.nearest = {item, hit->part, hit->t, hit->uv};
   ray.ray.tfar = float(hit->t);
   ray.hit.geomID = a->geomID, ray.hit.primID = a->primID;
   ray.hit.instID[0] = a->context->instID[0];
@@ -192,6 +191,8 @@ struct Tree::Impl {
   void addGroup(Group& group, unsigned mask);
   /// The nearest of them, if any: ends the ray there.
   bool meetUnbounded(Ray& ray, unsigned mask, Query& query) const noexcept;
+  /// The nearest of all others.
+  bool closestBounded(Query& query, unsigned mask) const noexcept;
 };
 
 embree::Geometry Tree::Impl::triangleGeometry(const Triangles& t) const {
@@ -246,9 +247,27 @@ bool Tree::Impl::meetUnbounded(Ray& ray, unsigned mask, Query& query) const noex
     const Item& item = (*items)[k];
     if (!(maskOf(item) & mask)) continue;
     const auto met = item.placement.shape->intersect(item.place.object(ray));
-    if (met) found = true, query.item = k, query.hit = *met, ray.tMax = met->t;
+    if (!met) continue;
+    found = true;
+    *query.nearest = {k, met->part, met->t, met->uv};
+    ray.tMax = met->t;
   }
   return found;
+}
+
+inline bool Tree::Impl::closestBounded(Query& query, unsigned mask) const noexcept {
+  RTCRayHit rayHit;
+  fillRay(rayHit.ray, *query.ray, mask);
+  rayHit.hit.geomID = rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  embree::initialise(query.context);
+  embree::intersect(scene.get(), rayHit, query.context);
+  const RTCHit& h = rayHit.hit;
+  if (h.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  const bool isInstance = h.instID[0] != RTC_INVALID_GEOMETRY_ID;
+  const int item = itemOfGeometry[std::size_t(isInstance ? h.instID[0] : h.geomID)];
+  if (item >= 0)
+    *query.nearest = {item, int(h.primID), Real(rayHit.ray.tfar), {Real(h.u), Real(h.v)}};
+  return true;
 }
 
 Tree::Tree() = default;
@@ -291,32 +310,12 @@ bool Tree::closest(const Ray& ray, unsigned mask, TreeHit& hit) const noexcept {
   const Impl& t = *impl_;
   Query query;
   query.ray = &ray;
-  Ray shortened;
-  bool found = false;
-  if (!t.unbounded.empty()) {
-    shortened = ray, query.ray = &shortened;
-    found = t.meetUnbounded(shortened, mask, query);
-  }
-  RTCRayHit rayHit;
-  fillRay(rayHit.ray, *query.ray, mask);
-  rayHit.hit.geomID = rayHit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  embree::initialise(query.context);
-  embree::intersect(t.scene.get(), rayHit, query.context);
-  const RTCHit& h = rayHit.hit;
-  if (h.geomID != RTC_INVALID_GEOMETRY_ID) {
-    const bool instance = h.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    const int item = t.itemOfGeometry[instance ? h.instID[0] : h.geomID];
-    if (item >= 0) {
-      hit.item = item, hit.primitive = int(h.primID), hit.t = Real(rayHit.ray.tfar);
-      hit.b = {Real(h.u), Real(h.v)};
-      return true;
-    }
-    found = true;
-  }
-  if (found)
-    hit.item = query.item, hit.primitive = query.hit.part, hit.t = query.hit.t,
-    hit.b = query.hit.uv;
-  return found;
+  query.nearest = &hit;
+  if (t.unbounded.empty()) return t.closestBounded(query, mask);
+  Ray shortened = ray;
+  query.ray = &shortened;
+  const bool isFound = t.meetUnbounded(shortened, mask, query);
+  return t.closestBounded(query, mask) || isFound;
 }
 
 bool Tree::occluded(const Ray& ray, unsigned mask) const noexcept {

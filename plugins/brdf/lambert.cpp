@@ -36,6 +36,8 @@ class Lambert final : public Brdf {
     return {.du = cosineHemisphere(n.u).du, .dPrev = {}};
   }
 
+  bool usesLobeNumber() const noexcept override { return false; }
+
   DiffusePart diffuse(const ScatterPoint& p) const noexcept override {
     return {p.inputs.rgb(kDiffuse), true};
   }

@@ -33,6 +33,8 @@ class Mirror final : public Brdf {
 
   LogGradient logGradient(const ScatterPoint&, Vec3) const noexcept override { return {}; }
 
+  bool usesLobeNumber() const noexcept override { return false; }
+
  private:
   static constexpr Vec3 kNormal = {0, 0, 1};
 };

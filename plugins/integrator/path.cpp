@@ -160,7 +160,7 @@ class PathIntegrator final : public Integrator {
   }
 
   static Continuation draw(PathContext& c, const Path& path, const Vertex& v) noexcept {
-    const ScatterNumbers numbers = path.scatterNumbers(c.sampler);
+    const ScatterNumbers numbers = path.scatterNumbers(c.sampler, v.x);
     return {numbers, drawScatter(v.x, numbers)};
   }
 

@@ -68,18 +68,16 @@ class Simple final : public Integrator {
 
   /// Draws the next ray from the BRDF. False: the path ends.
   static bool scatter(PathContext& c, Path& p, std::uint32_t vertex) noexcept {
-    const std::uint32_t dim = dimension::vertex(vertex);
-    const auto next = drawScatter(p.x, {c.sampler.number(dim + dimension::kLobe),
-                                        c.sampler.pair(dim + dimension::kDirection)});
+    const auto next = drawScatter(p.x, scatterNumbers(c.sampler, p.x, vertex, c.sampler.index()));
     if (!next || isBlack(next->weight)) return false;
     if (vertex == 0 && c.aovs) c.aovs->albedo = next->local.weight;
     p.throughput *= next->weight;
-    p.drawn = {receiverAt(p.s, p.x), next->local.specular ? kInfinity : next->local.pdf};
+    p.drawn = {p.x.receiver, next->local.specular ? kInfinity : next->local.pdf};
     p.ray = spawnRay(p.s, next->toNext, kindOf(next->local));
     if (vertex + 1 < kRouletteFrom) return true;
     const Real survival = survivalProbability(p.throughput);
     p.throughput = p.throughput / survival;
-    return c.sampler.number(dim + dimension::kRoulette) < survival;
+    return c.sampler.number(dimension::vertex(vertex) + dimension::kRoulette) < survival;
   }
 
   std::uint32_t samples_, depth_;

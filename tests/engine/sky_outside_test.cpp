@@ -64,13 +64,13 @@ TEST_CASE("a sky that walls hide does not take the lamp's rays", "[lights]") {
                     .jacobian = {},
                     .counters = counters};
       // Without rays that scattering draws: `scattered` is 0.
-      const TowardsLight drawn = drawLight(c, receiverAt(s, x), 0, std::uint32_t(i));
+      const TowardsLight drawn = drawLight(c, x.receiver, 0, std::uint32_t(i));
       tree.add(double(luminance(reflectedLight(c, s, x, drawn, 1, 0))));
       // The same lights by power alone, wherever the point is.
       const LightChoice choice = *view.chooseLight(c.sampler.number(1000));
       const Light* light = view.lights()[std::size_t(choice.light)];
       const Vec2 u = c.sampler.pair(1002);
-      const TowardsLight other{light, u, choice.chance, light->sample(receiverAt(s, x), u)};
+      const TowardsLight other{light, u, choice.chance, light->sample(x.receiver, u)};
       table.add(double(luminance(reflectedLight(c, s, x, other, 1, 0))));
     }
     byPlace += tree.variance();

@@ -13,7 +13,10 @@ warnings="-Wall -Wextra -Wpedantic -Werror"
 
 fail() { printf 'install_test: %s\n' "$*" >&2; exit 1; }
 quietly() {
-  "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "failed: $*"; }
+  local log
+  log=$(mktemp -p "$work" log.XXXXXX)
+  "$@" >"$log" 2>&1 || { cat "$log" >&2; fail "failed: $*"; }
+  mv "$log" "$work/log"
 }
 # Must fail, saying $1.
 refuses() {
@@ -28,6 +31,13 @@ build_plugin() {
   quietly cmake -S "$1" -B "$1/build" -DCMAKE_CXX_FLAGS="$warnings"
   quietly cmake --build "$1/build"
 }
+# The same for several folders, as many at once as there are processors.
+build_plugins() {
+  printf '%s\0' "$@" | xargs -0 -n 1 -P "$(nproc)" bash -euo pipefail -c 'build_plugin "$1"' -- ||
+    fail "a plugin could not be built"
+}
+export -f build_plugin quietly fail
+export work warnings
 # render FOLDER NAME: one sample, and a picture that was written.
 render() {
   quietly vestige check "$1/$2.scene" --werror --plugin-path "$1/build"
@@ -61,20 +71,17 @@ quietly vestige render "$prefix/share/vestige/examples/hello.scene" --spp 1 --wi
 
 # A new plugin of each kind; that of two kinds of brdf.
 cd "$work"
-for kind in brdf light camera pigment shape integrator; do
-  quietly vestige plugin new "$kind" "my_$kind"
-  build_plugin "my_$kind"
+kinds=(brdf light camera pigment shape integrator)
+for kind in "${kinds[@]}"; do quietly vestige plugin new "$kind" "my_$kind"; done
+for kind in light camera; do quietly vestige plugin new "$kind" "twin_$kind" --dual; done
+quietly vestige plugin new brdf soft_fur --dual --into "$work/home"
+build_plugins "${kinds[@]/#/my_}" twin_light twin_camera home/soft_fur
+for kind in "${kinds[@]}"; do
   [[ -f my_$kind/build/${kind}_my_$kind.so ]] || fail "no library of my_$kind"
   render "my_$kind" "my_$kind"
 done
-quietly vestige plugin new brdf soft_fur --dual --into "$work/home"
-build_plugin home/soft_fur
 render home/soft_fur soft_fur
-for kind in light camera; do
-  quietly vestige plugin new "$kind" "twin_$kind" --dual
-  build_plugin "twin_$kind"
-  render "twin_$kind" "twin_$kind"
-done
+for kind in light camera; do render "twin_$kind" "twin_$kind"; done
 
 # One symbol is exported, whatever is in the library.
 exported=$(nm -D --defined-only home/soft_fur/build/brdf_soft_fur.so | awk '$2 ~ /[DRTB]/ { print $3 }')
@@ -106,10 +113,10 @@ quietly vestige check my_pigment/my_pigment.scene --plugin-path by_hand
 # The other compiler understands the headers too.
 if command -v clang++ >/dev/null; then
   for header in "$prefix"/include/vestige/*.h "$prefix"/include/vestige/*/*.h; do
-    [[ -f $header ]] || continue
-    # shellcheck disable=SC2046
-    quietly clang++ $(pkg-config --cflags vestige) -x c++ -include "$header" -fsyntax-only /dev/null
-  done
+    if [[ -f $header ]]; then printf '#include "%s"\n' "$header"; fi
+  done >all_headers.cpp
+  # shellcheck disable=SC2046
+  quietly clang++ $(pkg-config --cflags vestige) -fsyntax-only all_headers.cpp
 fi
 
 # The package refuses what it does not have.
@@ -121,10 +128,14 @@ printf 'cmake_minimum_required(VERSION 3.22)\nproject(p CXX)\nfind_package(Vesti
 refuses "there is no kind 'bsdf'" cmake -S by_hand -B by_hand/b3
 
 # The examples, from the installation's own copy.
+examples=()
 for example in "$prefix"/share/vestige/examples/plugins/*/; do
   name=$(basename "$example")
   cp -r "$example" "$work/$name"
-  build_plugin "$work/$name"
+  examples+=("$name")
+done
+build_plugins "${examples[@]}"
+for name in "${examples[@]}"; do
   render "$work/$name" "$name"
   if vestige plugin --help | grep -q '^ *test '; then
     quietly ctest --test-dir "$work/$name/build" --output-on-failure

@@ -56,6 +56,7 @@ TEST_CASE("judge: sample() that is wrong", "[judge][brdf]") {
   checkBlamed(judgedSample([](ScatterSample& s) { s.lobePdf = s.pdf / 2; }), "sample().lobePdf");
   checkBlamed(judgedSample([](ScatterSample& s) { s.pdf = s.pdf * Real(1.1); }), "sample().pdf");
   checkBlamed(judged<BiasedSample>("lambert", kDiffuse), "sample()");
+  checkBlamed(judged<HiddenLobe>("lambert", kDiffuse), "usesLobeNumber()");
 }
 
 TEST_CASE("judge: derivatives that are wrong", "[judge][brdf]") {

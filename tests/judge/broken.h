@@ -35,6 +35,17 @@ class AsGood : public Brdf {
   std::shared_ptr<const Brdf> good;
 };
 
+/// Another direction for another lobe number, which it denies.
+struct HiddenLobe final : AsGood {
+  using AsGood::AsGood;
+  std::optional<ScatterSample> sample(const ScatterPoint& p,
+                                      ScatterNumbers n) const noexcept override {
+    if (n.lobe > Real(0.5)) n.u = {1 - n.u.x, n.u.y};
+    return good->sample(p, n);
+  }
+  bool usesLobeNumber() const noexcept override { return false; }
+};
+
 struct HalfPdf final : AsGood {
   using AsGood::AsGood;
   ScatterValue evaluate(const ScatterPoint& p, Vec3 d) const noexcept override {

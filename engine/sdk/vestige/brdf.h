@@ -131,6 +131,10 @@ class Brdf {
     return toNext.z < 0 ? sqr(p.eta()) : 1;
   }
 
+  /// Whether sample() depends on ScatterNumbers::lobe. False, if there is one lobe, saves
+  /// integrators a random number; they pass 0 then.
+  virtual bool usesLobeNumber() const noexcept { return true; }
+
   /// f(toPrev, toNext) alone, 1/sr, from evaluate(): for tests and tools. Zero at toNext.z = 0.
   Rgb f(const ScatterPoint& p, Vec3 toNext) const noexcept {
     return toNext.z != 0 ? evaluate(p, toNext).fCos / std::abs(toNext.z) : Rgb{};

@@ -48,6 +48,8 @@ class CosineBrdf : public Brdf {
     return isFinite(g.dPrev) && isFinite(g.dNext) ? g : LogGradient{};  // both at the horizon
   }
 
+  bool usesLobeNumber() const noexcept override { return false; }
+
  private:
   const Derived& self() const noexcept { return static_cast<const Derived&>(*this); }
 };

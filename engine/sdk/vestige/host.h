@@ -43,6 +43,7 @@ class Texture {
 };
 
 class Medium;
+class PhaseFunction;
 
 /// A BRDF inside another, evaluated at the same point. Its inputs follow those of the owner.
 struct NestedBrdf {
@@ -74,6 +75,9 @@ class Host {
   /// Creates a pigment, with the transforms written inside its block.
   virtual std::shared_ptr<const Pigment> pigment(const Block& /*block*/) { return unavailable(); }
   virtual std::shared_ptr<const Medium> medium(const Block& /*block*/) { return unavailable(); }
+  virtual std::shared_ptr<const PhaseFunction> phase(const Block& /*block*/) {
+    return unavailable();
+  }
 
   /// Warns the user of something that does not stop the render.
   virtual void warn(Span span, const std::string& message) = 0;

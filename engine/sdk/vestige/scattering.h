@@ -3,6 +3,7 @@
 //
 // [Vea97] Veach. Robust Monte Carlo methods for light transport simulation. PhD thesis, 1997.
 #pragma once
+#include <vestige/sampler.h>
 #include <vestige/scene_view.h>
 
 namespace vestige {
@@ -57,12 +58,6 @@ inline bool isOpaque(Rgb opacity) noexcept {
 /// a light) is corrected for shading normals [Vea97 5.2, 5.3].
 enum class Carries { radiance, flux };
 
-/// The receiver at a surface.
-inline Receiver receiverAt(const Surface& s, const Interaction& x) noexcept {
-  const bool isFront = dot(x.toPrev, s.geometricNormal) >= 0;
-  return {s.position, x.frame.n, s.time, (isFront ? s.mediaInFront : s.mediaBehind).top()};
-}
-
 /// One drawn continuation of a path, in world space.
 struct Scatter {
   Vec3 toNext;
@@ -98,6 +93,16 @@ inline ScatterValue evaluateScatter(const Interaction& x, Vec3 toNext,
   ScatterValue v = x.brdf->evaluate(x.point, local);
   v.fCos = etaScale(x, local, what) * shadingCorrection(x, toNext, what) * v.fCos;
   return v;
+}
+
+/// The random numbers of a vertex's continuation. `vertex`: its number, `index`: of the path in its
+/// sequences.
+inline ScatterNumbers scatterNumbers(const Sampler& s, const Interaction& x, std::uint32_t vertex,
+                                     std::uint32_t index) noexcept {
+  const std::uint32_t dim = dimension::vertex(vertex);
+  const bool isLobeDrawn = x.brdf && x.brdf->usesLobeNumber();
+  return {isLobeDrawn ? s.number(dim + dimension::kLobe, index) : Real(0),
+          s.pair(dim + dimension::kDirection, index)};
 }
 
 /// Draws a continuation; nullopt where the path is absorbed.

@@ -38,6 +38,7 @@ struct Interaction {
   Vec3 geometricNormal;        ///< faces toPrev
   Rgb opacity{1, 1, 1};        ///< 1 - the share that passes straight through: see drawPassage()
   Vec3 toPrev;                 ///< world
+  Receiver receiver;           ///< for lights: the surface on the side of toPrev
 };
 
 struct LightChoice {

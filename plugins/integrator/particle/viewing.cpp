@@ -82,7 +82,7 @@ bool Viewing::scatter(Path& p) const noexcept {
   PathContext& c = p.c;
   const Vertex& v = p.v;
   p.radiance += p.throughput * directLight(c, v.s, v.x, p.vertex(), p.stream.index);
-  const ScatterNumbers numbers = p.scatterNumbers(c.sampler);
+  const ScatterNumbers numbers = p.scatterNumbers(c.sampler, v.x);
   const std::optional<Scatter> next = drawScatter(v.x, numbers);
   if (p.edge == 1 && c.aovs && next) c.aovs->albedo += next->local.weight;
   if (!next || isBlack(next->weight)) {

@@ -104,7 +104,7 @@ inline Rgb reflectedLight(PathContext& c, const Surface& s, const Interaction& x
 inline Rgb directLight(PathContext& c, const Surface& s, const Interaction& x, std::uint32_t vertex,
                        std::uint32_t index, Real samples = 1, Real scattered = 1) noexcept {
   if (!x.brdf) return {};
-  return reflectedLight(c, s, x, drawLight(c, receiverAt(s, x), vertex, index), samples, scattered);
+  return reflectedLight(c, s, x, drawLight(c, x.receiver, vertex, index), samples, scattered);
 }
 
 }  // namespace vestige

@@ -44,7 +44,7 @@ template <int Lanes>
 [[gnu::noinline]] Rgb limitedDirectLight(PathContext& c, const Surface& s, const Interaction& x,
                                          std::uint32_t vertex, std::uint32_t index, Real samples,
                                          Real scattered, const PathFootprint<Lanes>& f) noexcept {
-  const Receiver receiver = receiverAt(s, x);
+  const Receiver& receiver = x.receiver;
   const TowardsLight towards = drawLight(c, receiver, vertex, index);
   if (!x.brdf || !towards.sample) return {};
   const LightHit& hit = towards.sample->hit;

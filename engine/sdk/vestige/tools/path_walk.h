@@ -4,7 +4,7 @@
 //
 //     EyePath path(context);
 //     while (walk(context, path, vertex, radiance)) {
-//       ... direct light; a continuation drawn with path.scatterNumbers(sampler) ...
+//       ... direct light; a continuation drawn with path.scatterNumbers(sampler, x) ...
 //       path.leave(vertex, scatter, 1);
 //       ++path.edge;
 //     }
@@ -84,17 +84,15 @@ struct EyePath {
   Real number(const Sampler& s, std::uint32_t offset) const noexcept {
     return s.number(dimension::vertex(vertex()) + offset, stream.index);
   }
-  ScatterNumbers scatterNumbers(const Sampler& s) const noexcept {
-    const std::uint32_t dim = dimension::vertex(vertex());
-    return {s.number(dim + dimension::kLobe, stream.index),
-            s.pair(dim + dimension::kDirection, stream.index)};
+  ScatterNumbers scatterNumbers(const Sampler& s, const Interaction& x) const noexcept {
+    return vestige::scatterNumbers(s, x, vertex(), stream.index);
   }
 
   /// Leaves a vertex along a drawn ray, one of `siblings`.
   void leave(const Vertex& v, const Scatter& next, int siblings) noexcept {
     throughput *= next.weight;
     flux *= next.local.weight;
-    drawn.from = receiverAt(v.s, v.x);
+    drawn.from = v.x.receiver;
     drawn.density = next.local.specular ? kInfinity : Real(siblings) * next.local.pdf;
     ray = spawnRay(v.s, next.toNext, kindOf(next.local));
   }
