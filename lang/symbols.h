@@ -2,10 +2,12 @@
 // Names and their values: POV-Ray's dynamic stack of tables, main file < include < macro call.
 #pragma once
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "lang/lexer.h"
@@ -35,70 +37,90 @@ struct Symbol {
 /// Shared between a name and the macro parameters that refer to it.
 using Cell = std::shared_ptr<Symbol>;
 
+/// Every name has a stack of bindings, innermost last: finding one takes the same time at any
+/// depth.
 class Symbols {
  public:
-  using Table = std::unordered_map<const std::string*, Cell>;
-
   explicit Symbols(Total memory) : memory_(std::move(memory)) { push(); }
   void push() { tables_.emplace_back(); }
   void pop() {
-    *memory_ -= kEntry * std::int64_t(top().size());
+    *memory_ -= kEntry * std::int64_t(tables_.back().size());
+    for (const std::string* name : tables_.back()) stacks_.find(name)->second.pop_back();
     tables_.pop_back();
   }
-  Table& top() { return tables_.back(); }
 
   /// The nearest binding, or null.
   Cell find(const std::string* name) const {
-    for (auto t = tables_.rbegin(); t != tables_.rend(); ++t)
-      if (const auto found = t->find(name); found != t->end()) return found->second;
-    return nullptr;
+    const Binding* nearest = nearestOf(name);
+    return nearest ? nearest->cell : nullptr;
   }
   /// #declare: the nearest binding, else a new global one.
   Cell declare(const std::string* name) { return in(tableOf(name), name); }
   /// A parameter of a macro: a binding to the argument in the innermost table.
-  void bind(const std::string* name, Cell cell) {
-    if (top().insert_or_assign(name, std::move(cell)).second) *memory_ += kEntry;
-  }
+  void bind(const std::string* name, Cell cell) { at(innermost(), name) = std::move(cell); }
   /// #local: a binding in the innermost table.
   Cell local(const std::string* name) { return in(innermost(), name); }
 
   std::size_t innermost() const { return tables_.size() - 1; }
   /// The table with the nearest binding, else the global one.
   std::size_t tableOf(const std::string* name) const {
-    for (std::size_t t = innermost(); t > 0; --t)
-      if (tables_[t].count(name)) return t;
-    return 0;
+    const Binding* nearest = nearestOf(name);
+    return nearest ? nearest->table : 0;
   }
   /// The binding in one table, made if there is none. A table that has been left: the innermost.
   Cell in(std::size_t table, const std::string* name) {
-    Table& t = tables_[std::min(table, innermost())];
-    if (const auto found = t.find(name); found != t.end()) return found->second;
-    *memory_ += kEntry;
-    return t[name] = std::make_shared<Symbol>();
+    Cell& cell = at(std::min(table, innermost()), name);
+    if (!cell) cell = std::make_shared<Symbol>();
+    return cell;
   }
   /// #undef: the nearest binding; false if there is none.
   bool undefine(const std::string* name) {
-    for (auto t = tables_.rbegin(); t != tables_.rend(); ++t)
-      if (t->erase(name) > 0) {
-        *memory_ -= kEntry;
-        return true;
-      }
-    return false;
+    const Binding* nearest = nearestOf(name);
+    if (!nearest) return false;
+    tables_[nearest->table].erase(name);
+    stacks_.find(name)->second.pop_back();
+    *memory_ -= kEntry;
+    return true;
   }
   /// Every visible name, for "did you mean".
   std::vector<std::string> names() const {
     std::vector<std::string> all;
-    for (const Table& t : tables_)
-      for (const auto& [name, cell] : t) all.push_back(*name);
+    for (const auto& [name, stack] : stacks_)
+      if (!stack.empty()) all.push_back(*name);
     std::sort(all.begin(), all.end());
     return all;
   }
 
  private:
-  /// Bytes of a name's entry and its cell, without what the value refers to.
+  struct Binding {
+    std::size_t table;
+    Cell cell;
+  };
+  /// Bytes of a binding and its cell, without what the value refers to.
   static constexpr std::int64_t kEntry = sizeof(Symbol) + 80;
+  /// Bytes of a name's stack, which stays when its bindings are gone.
+  static constexpr std::int64_t kStack = 96;
+
+  const Binding* nearestOf(const std::string* name) const {
+    const auto found = stacks_.find(name);
+    return found == stacks_.end() || found->second.empty() ? nullptr : &found->second.back();
+  }
+  /// The cell of a binding in one table; null in a new one.
+  Cell& at(std::size_t table, const std::string* name) {
+    const auto [found, isNew] = stacks_.try_emplace(name);
+    if (isNew) *memory_ += kStack;
+    std::vector<Binding>& stack = found->second;
+    auto place = stack.end();
+    while (place != stack.begin() && std::prev(place)->table > table) --place;
+    if (place != stack.begin() && std::prev(place)->table == table) return std::prev(place)->cell;
+    *memory_ += kEntry;
+    tables_[table].insert(name);
+    return stack.insert(place, {table, nullptr})->cell;
+  }
+
   Total memory_;
-  std::vector<Table> tables_;
+  std::unordered_map<const std::string*, std::vector<Binding>> stacks_;
+  std::vector<std::unordered_set<const std::string*>> tables_;  ///< the names bound in each
 };
 
 }  // namespace vestige::lang
