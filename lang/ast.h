@@ -25,7 +25,8 @@ struct Expr {
     choose,     ///< args: condition, then, else
     vector,     ///< args: 2 to 5 components
     colour,     ///< `word`: rgb, rgbf, srgb, ..., color; args: one
-    channels,   ///< color red R green G ...: args in the order of the five, null: not given
+    channels,   ///< red R green G ...: args in the order of the five, then a colour whose channels
+                ///< these replace; null: not given
     member,     ///< `word`: x, red, ...; args: one
     index,      ///< args: an array, then its indices
     builtin,    ///< `function`, args

@@ -49,11 +49,10 @@ Datum modulo(const Call& c) {
   return Numbers(std::fmod(c.number(0), c.number(1)));
 }
 
-/// Both truncated, and so is the quotient: div(-7, 2) = -3.
+/// The truncated quotient: div(-7, 2) = -3, div(7.9, 2.9) = 2.
 Datum quotient(const Call& c) {
-  const double a = std::trunc(c.number(0)), b = std::trunc(c.number(1));
-  if (b == 0) return c.complain(1, "div() by zero");
-  return Numbers(std::trunc(a / b));
+  if (c.number(1) == 0) return c.complain(1, "div() by zero");
+  return Numbers(std::trunc(c.number(0) / c.number(1)));
 }
 
 /// select(a, ifNegative, [ifZero,] ifPositive); two branches: zero counts as positive.

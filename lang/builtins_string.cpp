@@ -82,6 +82,16 @@ Datum changeCase(const Call& c) {
   return made(c, std::move(s));
 }
 
+/// Of the first letters that differ, where the end of a string counts as 0.
+int difference(const std::string& a, const std::string& b) {
+  const auto code = [](const std::string& s, std::size_t i) {
+    return i < s.size() ? int(static_cast<unsigned char>(s[i])) : 0;
+  };
+  std::size_t i = 0;
+  while (i < a.size() && i < b.size() && a[i] == b[i]) ++i;
+  return code(a, i) - code(b, i);
+}
+
 Datum numberOf(const Call& c) {
   const std::string& s = c.text(0);
   std::size_t from = s.find_first_not_of(" \t");
@@ -112,10 +122,7 @@ std::vector<Builtin> stringBuiltins() {
       {"str", "nnn",
        [](const Call& c) { return made(c, layout(c, c.number(0), c.integer(1), c.integer(2))); }},
       {"strcmp", "ss",
-       [](const Call& c) -> Datum {
-         const int order = c.text(0).compare(c.text(1));
-         return Numbers(order < 0 ? -1 : order > 0 ? 1 : 0);
-       }},
+       [](const Call& c) -> Datum { return Numbers(difference(c.text(0), c.text(1))); }},
       {"strlen", "s", [](const Call& c) -> Datum { return Numbers(double(c.text(0).size())); }},
       {"strlwr", "s", changeCase<false>},
       {"strupr", "s", changeCase<true>},

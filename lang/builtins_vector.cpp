@@ -47,9 +47,7 @@ Datum dimensions(const Call& c) {
 Datum dimensionSize(const Call& c) {
   const auto& sizes = std::get<ArrayPtr>(c.args[0])->sizes;
   const int i = c.integer(1);
-  if (i < 1 || std::size_t(i) > sizes.size())
-    return c.complain(1, "dimension_size() counts from 1 to " + std::to_string(sizes.size()) +
-                             " here, found " + shortest(c.number(1)));
+  if (i < 1 || std::size_t(i) > sizes.size()) return Numbers(0);  // as in POV-Ray
   return Numbers(sizes[std::size_t(i - 1)]);
 }
 

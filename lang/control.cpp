@@ -49,18 +49,7 @@ void Directives::countLoop(const Span& span) {
 bool Directives::isDefined() {
   const Span open = stream_.peekRaw().span;
   if (!stream_.acceptRaw("(")) parser_.expressions().unexpected("'(' and a name");
-  const Token name = plainName("'('");
-  const Cell cell = context_.symbols.find(name.text);
-  bool isKnown = cell != nullptr;
-  while (stream_.peekRaw().is("[")) {
-    const Span bracket = stream_.nextRaw().span;
-    const auto index = parser_.expressions().evaluate(ExpressionParser::Place::setting);
-    parser_.expressions().expect("]", bracket, "[");
-    const auto* array = cell ? std::get_if<ArrayPtr>(&cell->value) : nullptr;
-    const Numbers* n = numbers(index.value);
-    isKnown = array && n && (*array)->sizes.size() == 1 && n->v[0] >= 0 &&
-              n->v[0] < (*array)->sizes[0] && !isBroken((*array)->data[std::size_t(n->v[0])]);
-  }
+  const bool isKnown = parser_.expressions().isDefined(plainName("'('"));
   parser_.expressions().expect(")", open, "(");
   return isKnown;
 }

@@ -156,23 +156,39 @@ void Directives::assignElement(const Token& directive, const Token& name) {
   Datum value = parser_.value(ExpressionParser::Place::declaration).value;
   needSemicolon(value, *name.text);
   if (cell && isBroken(cell->value)) return;
-  const auto* array = cell ? std::get_if<ArrayPtr>(&cell->value) : nullptr;
-  if (!array) {
+  if (!cell || !std::holds_alternative<ArrayPtr>(cell->value)) {
     context_.reporter.error(name.span, "'" + *name.text + "' is not an array: write '#declare " +
                                            *name.text + " = array[10];' first");
     return;
   }
-  const auto at = elementAt(context_, **array, indices, spans);
-  if (!at) return;
   // Arrays are values: other owners keep the old element. Without other owners no copy is made.
-  if (array->use_count() > 1) {
-    const std::size_t bytes = (*array)->data.size() * sizeof(Datum);
-    context_.budget.need(name.span, double(bytes));
-    context_.budget.copy(name.span, bytes);
-    cell->value = std::make_shared<const Array>(**array);
-    context_.checkElements(name.span);
+  Datum* place = &cell->value;
+  for (std::size_t next = 0; next < indices.size();) {
+    auto* array = std::get_if<ArrayPtr>(place);
+    if (!array) {
+      context_.reporter.error(spans[next], "'[' follows an array, found " + describe(*place));
+      return;
+    }
+    const std::size_t count = std::min((*array)->sizes.size(), indices.size() - next);
+    const auto from = [next](auto& all) { return all.begin() + std::ptrdiff_t(next); };
+    const auto length = std::ptrdiff_t(count);
+    const auto at = elementAt(context_, **array, {from(indices), from(indices) + length},
+                              {from(spans), from(spans) + length});
+    if (!at) return;
+    if (array->use_count() > 1) *array = copied(name.span, **array);
+    place = &const_cast<Array&>(**array).data[*at];
+    next += count;
   }
-  const_cast<Array&>(*std::get<ArrayPtr>(cell->value)).data[*at] = std::move(value);
+  *place = std::move(value);
+}
+
+ArrayPtr Directives::copied(const Span& span, const Array& array) {
+  const std::size_t bytes = array.data.size() * sizeof(Datum);
+  context_.budget.need(span, double(bytes));
+  context_.budget.copy(span, bytes);
+  ArrayPtr copy = std::make_shared<const Array>(array);
+  context_.checkElements(span);
+  return copy;
 }
 
 // '#undef' name

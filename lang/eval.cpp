@@ -2,6 +2,7 @@
 #include "lang/eval.h"
 
 #include <cmath>
+#include <cstring>
 #include <map>
 
 #include "lang/builtins.h"
@@ -15,10 +16,9 @@ constexpr int kLevelsPerNesting = 4;
 /// A node of a function costs more than a token.
 constexpr std::int64_t kStepsANode = 2;
 
-/// IEC 61966-2-1, also below zero, where it is continued as an odd function.
+/// IEC 61966-2-1; below zero its linear part goes on, as in POV-Ray.
 double decodeSrgb(double x) {
-  const double a = std::abs(x);
-  return std::copysign(a <= 0.04045 ? a / 12.92 : std::pow((a + 0.055) / 1.055, 2.4), x);
+  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
 }
 
 double truth(bool b) { return b ? 1 : 0; }
@@ -33,6 +33,8 @@ double relation(const std::string& op, double x, double y) {
   if (op == ">") return truth(x > y);
   return truth(x >= y || equal);
 }
+
+bool isRelation(const std::string& op) { return std::strchr("=!<>", op[0]) != nullptr; }
 
 /// Weights of `.gray`, POV-Ray's.
 double grey(const Numbers& n) { return 0.297 * n.v[0] + 0.589 * n.v[1] + 0.114 * n.v[2]; }
@@ -123,6 +125,12 @@ double Evaluator::apply(const std::string& op, double x, double y, const Expr& e
 
 Datum Evaluator::binary(const Expr& e, Arguments a) {
   const Datum left = evaluate(*e.args[0], a), right = evaluate(*e.args[1], a);
+  const auto* s = std::get_if<TextPtr>(&left);
+  const auto* t = std::get_if<TextPtr>(&right);
+  if (s && t && isRelation(e.word)) {
+    context_.budget.copy(e.span, std::min((*s)->size(), (*t)->size()));
+    return Numbers(relation(e.word, (*s)->compare(**t), 0));
+  }
   const std::string who = "'" + e.word + "'";
   const Numbers* x = wantNumbers(left, *e.args[0], who);
   const Numbers* y = wantNumbers(right, *e.args[1], who);
@@ -150,27 +158,24 @@ Datum Evaluator::vector(const Expr& e, Arguments a) {
   return isWhole ? Datum(r) : Datum();
 }
 
-// rgb keeps filter and transmit of a longer operand; `color 0.4` sets all five.
+// A number fills red, green and blue and what else the word names: `rgbt 0.4` transmits 0.4, and
+// `color 0.4` sets all five. A vector gives its components in order, also beyond the word's own.
 Datum Evaluator::colour(const Expr& e, Arguments a) {
   const Datum d = evaluate(*e.args[0], a);
   const Numbers* n = wantNumbers(d, *e.args[0], "'" + e.word + "'");
   if (!n) return {};
   Numbers r;
   r.size = 5, r.isColour = true;
-  if (n->size == 2) {
-    context_.reporter.error(e.args[0]->span,
-                            "a colour has at least three components, found " + describe(d));
-    return {};
-  }
   const bool isBare = e.word == "color" || e.word == "colour";
   const bool isSrgb = e.word[0] == 's';
-  const std::string tail = isBare ? "" : e.word.substr(isSrgb ? 4 : 3);  // "", f, t, ft
+  const std::string tail = isBare ? "ft" : e.word.substr(isSrgb ? 4 : 3);  // "", f, t, ft
   if (isBare && n->size == 1)
     context_.reporter.warning(e.span, "'" + e.word +
                                           "' with one number also sets filter and "
                                           "transmit to it; write 'rgb' for a grey");
-  const bool fillsAll = n->size > 1 || isBare || !tail.empty();
-  for (int i = 0; i < (fillsAll ? 5 : 3); ++i) r.v[std::size_t(i)] = n->at(i);
+  for (int i = 0; i < 5; ++i) r.v[std::size_t(i)] = n->at(i);
+  if (n->size == 1 && tail.find('f') == std::string::npos) r.v[3] = 0;
+  if (n->size == 1 && tail.find('t') == std::string::npos) r.v[4] = 0;
   if (tail == "t" && n->size == 4) r.v[4] = r.v[3], r.v[3] = 0;
   if (isSrgb)
     for (std::size_t i = 0; i < 3; ++i) r.v[i] = decodeSrgb(r.v[i]);
@@ -179,6 +184,11 @@ Datum Evaluator::colour(const Expr& e, Arguments a) {
 
 Datum Evaluator::channels(const Expr& e, Arguments a) {
   Numbers r;
+  if (e.args[5]) {
+    const Datum base = evaluate(*e.args[5], a);
+    if (!numbers(base)) return {};
+    r = *numbers(base);
+  }
   r.size = 5, r.isColour = true;
   for (std::size_t i = 0; i < 5; ++i)
     if (e.args[i] && !wantNumber(evaluate(*e.args[i], a), *e.args[i], "a colour's part", r.v[i]))
@@ -203,26 +213,31 @@ Datum Evaluator::member(const Expr& e, Arguments a) {
   return Numbers(isGrey ? grey(*n) : n->v[std::size_t(place)]);
 }
 
+// The element of an array may be an array, which takes the rest of the indices.
 Datum Evaluator::index(const Expr& e, Arguments a) {
-  const Datum d = evaluate(*e.args[0], a);
-  const auto* array = std::get_if<ArrayPtr>(&d);
-  if (!array) {
-    if (!isBroken(d))
-      context_.reporter.error(e.args[0]->span, "'[' follows an array, found " + describe(d));
-    return {};
+  Datum d = evaluate(*e.args[0], a);
+  for (std::size_t next = 1; next < e.args.size();) {
+    const auto* found = std::get_if<ArrayPtr>(&d);
+    if (!found) {
+      if (!isBroken(d))
+        context_.reporter.error(e.args[next - 1]->span,
+                                "'[' follows an array, found " + describe(d));
+      return {};
+    }
+    const ArrayPtr array = *found;
+    std::vector<double> indices;
+    std::vector<Span> spans;
+    for (; indices.size() < array->sizes.size() && next < e.args.size(); ++next) {
+      const Expr& arg = *e.args[next];
+      if (!wantNumber(evaluate(arg, a), arg, "an index", indices.emplace_back())) return {};
+      spans.push_back(arg.span);
+    }
+    const auto at = elementAt(context_, *array, indices, spans);
+    if (!at) return {};
+    d = array->data[*at];
+    if (isBroken(d)) context_.reporter.error(e.span, "this element of the array has no value yet");
   }
-  std::vector<double> indices(e.args.size() - 1);
-  std::vector<Span> spans;
-  for (std::size_t i = 1; i < e.args.size(); ++i) {
-    if (!wantNumber(evaluate(*e.args[i], a), *e.args[i], "an index", indices[i - 1])) return {};
-    spans.push_back(e.args[i]->span);
-  }
-  const auto at = elementAt(context_, **array, indices, spans);
-  if (!at) return {};
-  const Datum& element = (*array)->data[*at];
-  if (isBroken(element))
-    context_.reporter.error(e.span, "this element of the array has no value yet");
-  return element;
+  return d;
 }
 
 Datum Evaluator::builtin(const Expr& e, Arguments a) {

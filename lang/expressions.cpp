@@ -26,6 +26,15 @@ bool isColourWord(const Token& t) {
   return words.count(*t.text) > 0;
 }
 
+constexpr const char* kChannels[] = {"red", "green", "blue", "filter", "transmit"};
+
+/// The place of a channel in a colour; -1: not the name of one.
+int channelOf(const Token& t) {
+  for (int i = 0; i < 5; ++i)
+    if (t.isWord(kChannels[i])) return i;
+  return -1;
+}
+
 /// x, pi, true, ...; std::monostate: not a constant.
 Datum constantOf(const std::string& word, double version) {
   static const std::map<std::string, double> numbers = {{"pi", 3.14159265358979323846},
@@ -266,9 +275,14 @@ ExprPtr ExpressionParser::comparison() {
   return chain(&ExpressionParser::sum, {"<", "<=", "=", "==", ">=", ">", "!="});
 }
 
-// sum := product { ('+' | '-') product } | colour
+// sum := product { ('+' | '-') product } | colour [channels] | channels
 ExprPtr ExpressionParser::sum() {
-  if (isColourWord(stream_.peek())) return colour(true);
+  const Token t = stream_.peek();
+  if (isColourWord(t)) {
+    ExprPtr plain = colour(true);
+    return isChannelAhead() ? channels(std::move(plain)) : std::move(plain);
+  }
+  if (isChannelAhead() && !context_.symbols.find(t.text)) return channels(nullptr);
   return chain(&ExpressionParser::product, {"+", "-"});
 }
 
@@ -393,27 +407,27 @@ ExprPtr ExpressionParser::colour(bool wholeSum) {
   const Nested nested(context_, word.span);
   const bool isBare = word.isWord("color") || word.isWord("colour");
   if (isBare && isColourWord(stream_.peek())) return colour(wholeSum);
-  if (isBare)
-    for (const char* channel : {"red", "green", "blue", "filter", "transmit"})
-      if (stream_.peek().isWord(channel)) return channels(word);
+  if (isBare && channelOf(stream_.peek()) >= 0) return channels(nullptr);
   std::vector<ExprPtr> args;
   args.push_back(wholeSum ? sum() : signedOperand());
   return node(Expr::Kind::colour, word.span, *word.text, std::move(args));
 }
 
-// channels := { ('red' | 'green' | 'blue' | 'filter' | 'transmit') sum }
-ExprPtr ExpressionParser::channels(const Token& word) {
-  static const std::string names[] = {"red", "green", "blue", "filter", "transmit"};
-  std::vector<ExprPtr> args(5);
-  for (;;) {
-    const Token t = stream_.peek();
-    const auto* channel =
-        t.kind == Token::Kind::name ? std::find(names, names + 5, *t.text) : names + 5;
-    if (channel == names + 5) break;
-    stream_.next();
-    args[std::size_t(channel - names)] = sum();
-  }
-  return node(Expr::Kind::channels, word.span, *word.text, std::move(args));
+bool ExpressionParser::isChannelAhead() {
+  return channelOf(stream_.peek()) >= 0 && begins(stream_.peekRaw(1));
+}
+
+// channels := { ('red' | 'green' | 'blue' | 'filter' | 'transmit') sum }      the last one counts
+// `base`: a colour whose channels they replace; null: black.
+ExprPtr ExpressionParser::channels(ExprPtr base) {
+  const Token first = stream_.peek();
+  std::vector<ExprPtr> args(6);
+  args[5] = std::move(base);
+  do {
+    const int channel = channelOf(stream_.next());
+    args[std::size_t(channel)] = chain(&ExpressionParser::product, {"+", "-"});
+  } while (channelOf(stream_.peek()) >= 0);
+  return node(Expr::Kind::channels, first.span, *first.text, std::move(args));
 }
 
 // name := parameter | identifier | constant | call | 'defined' '(' identifier ')'
@@ -469,10 +483,35 @@ ExprPtr ExpressionParser::call(const Token& name, const Datum& symbol) {
 ExprPtr ExpressionParser::definedTest(const Token& word) {
   const Span open = stream_.peekRaw().span;
   if (!stream_.acceptRaw("(")) unexpected("'(' after 'defined'");
-  const Token name = stream_.nextRaw();
+  const bool isKnown = isDefined(stream_.nextRaw());
   if (!stream_.acceptRaw(")")) expect(")", open, "(");
-  const bool isKnown = context_.symbols.find(name.text) != nullptr;
   return constant(Numbers(isKnown ? 1 : 0), context_.sources.join(word.span, stream_.last()));
+}
+
+// { '[' sum ']' } after a name. An index outside the array names nothing.
+bool ExpressionParser::isDefined(const Token& name) {
+  const Cell cell = context_.symbols.find(name.text);
+  Datum value = cell ? cell->value : Datum();
+  bool isKnown = cell != nullptr;
+  std::size_t dimension = 0, at = 0;
+  while (stream_.peekRaw().is("[")) {
+    const Span bracket = stream_.nextRaw().span;
+    const Datum index = evaluate(Place::setting).value;
+    expect("]", bracket, "[");
+    const auto* array = std::get_if<ArrayPtr>(&value);
+    const Numbers* n = numbers(index);
+    const int size = array ? (*array)->sizes[dimension] : 0;
+    if (!isKnown || !n || !(n->v[0] > -1 && n->v[0] < size)) {
+      isKnown = false;
+      continue;
+    }
+    at = at * std::size_t(size) + std::size_t(n->v[0]);
+    if (++dimension < (*array)->sizes.size()) continue;
+    value = Datum((*array)->data[at]);
+    isKnown = !isBroken(value);
+    dimension = at = 0;
+  }
+  return isKnown;
 }
 
 // An undeclared name, with the arguments that may follow it.

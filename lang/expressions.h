@@ -34,6 +34,8 @@ class ExpressionParser {
 
   /// Whether an expression can begin with this token.
   bool begins(const Token& token) const;
+  /// Reads the indices that may follow a name: whether it, or that element, has a value.
+  bool isDefined(const Token& name);
   /// Reads a closing sign or reports an error; the construct was opened at `open`.
   void expect(const char* sign, const Span& open, const char* opener);
   /// Reports "expected X, found Y" at the next token.
@@ -62,7 +64,8 @@ class ExpressionParser {
   ExprPtr name();
   ExprPtr vector();
   ExprPtr colour(bool wholeSum);
-  ExprPtr channels(const Token& word);
+  bool isChannelAhead();
+  ExprPtr channels(ExprPtr base);
   ExprPtr call(const Token& name, const Datum& symbol);
   ExprPtr definedTest(const Token& word);
   ExprPtr unknown(const Token& name);

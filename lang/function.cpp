@@ -83,7 +83,7 @@ const std::map<std::string, Kernel>& kernels() {
       {"cos", plain<std::cos>},
       {"cosh", plain<std::cosh>},
       {"degrees", [](const double* a, int) { return a[0] * (180 / kHalfTurn); }},
-      {"div", [](const double* a, int) { return std::trunc(std::trunc(a[0]) / std::trunc(a[1])); }},
+      {"div", [](const double* a, int) { return std::trunc(a[0] / a[1]); }},
       {"exp", plain<std::exp>},
       {"floor", plain<std::floor>},
       {"int", plain<std::trunc>},

@@ -129,9 +129,10 @@ class Lexer {
     return t;
   }
   bool isTiny(std::size_t begin) const {
-    return text_.substr(begin, at_ - begin).find("e-") != std::string::npos ||
-           text_.substr(begin, at_ - begin).find("E-") != std::string::npos ||
-           text_[begin] == '.' || text_[begin] == '0';
+    const std::string_view digits(text_.data() + begin, at_ - begin);
+    const std::size_t exponent = digits.find_first_of("eE");
+    if (exponent != std::string_view::npos) return digits[exponent + 1] == '-';
+    return digits[0] == '.' || digits[0] == '0';
   }
 
   Token string(std::size_t begin) {
