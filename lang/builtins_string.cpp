@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "lang/builtins.h"
+#include "lang/utf8.h"
 
 namespace vestige::lang {
 namespace {
@@ -58,18 +59,22 @@ Datum vectorText(const Call& c) {
 Datum part(const Call& c) {
   const std::string& s = c.text(0);
   const int from = c.integer(1), length = c.integer(2);
-  if (from < 1 || length < 0 || std::size_t(from - 1) + std::size_t(length) > s.size())
+  const std::size_t size = lengthOf(s);
+  if (from < 1 || length < 0 || std::size_t(from - 1) + std::size_t(length) > size)
     return c.complain(1, "substr() from " + shortest(from) + ", " + shortest(length) +
-                             " long, reaches outside a string of " + shortest(double(s.size())) +
+                             " long, reaches outside a string of " + shortest(double(size)) +
                              " characters");
-  return made(c, s.substr(std::size_t(from - 1), std::size_t(length)));
+  const std::size_t begin = beginOf(s, std::size_t(from - 1));
+  const std::string_view rest = std::string_view(s).substr(begin);
+  return made(c, std::string(rest.substr(0, beginOf(rest, std::size_t(length)))));
 }
 
+/// chr(0) ends a string, so it is empty.
 Datum character(const Call& c) {
   const int code = c.integer(0);
-  if (code < 0 || code > 255)
-    return c.complain(0, "chr() takes 0 to 255, found " + shortest(c.number(0)));
-  return textDatum(std::string(1, char(code)));
+  if (code < 0 || code > 65535)
+    return c.complain(0, "chr() takes 0 to 65535, found " + shortest(c.number(0)));
+  return textDatum(code == 0 ? std::string() : utf8(std::uint32_t(code)));
 }
 
 template <bool toUpper>
@@ -82,14 +87,13 @@ Datum changeCase(const Call& c) {
   return made(c, std::move(s));
 }
 
-/// Of the first letters that differ, where the end of a string counts as 0.
-int difference(const std::string& a, const std::string& b) {
-  const auto code = [](const std::string& s, std::size_t i) {
-    return i < s.size() ? int(static_cast<unsigned char>(s[i])) : 0;
-  };
-  std::size_t i = 0;
-  while (i < a.size() && i < b.size() && a[i] == b[i]) ++i;
-  return code(a, i) - code(b, i);
+/// Of the first characters that differ, where the end of a string counts as 0.
+double difference(const std::string& a, const std::string& b) {
+  for (std::size_t at = 0;;) {
+    const Character x = characterAt(a, at), y = characterAt(b, at);
+    if (x.code != y.code || at >= a.size()) return double(x.code) - double(y.code);
+    at += x.bytes;
+  }
 }
 
 Datum numberOf(const Call& c) {
@@ -112,10 +116,7 @@ Datum fileExists(const Call& c) {
 
 std::vector<Builtin> stringBuiltins() {
   return {
-      {"asc", "s",
-       [](const Call& c) -> Datum {
-         return Numbers(c.text(0).empty() ? 0 : static_cast<unsigned char>(c.text(0)[0]));
-       }},
+      {"asc", "s", [](const Call& c) -> Datum { return Numbers(characterAt(c.text(0), 0).code); }},
       {"chr", "n", character},
       {"concat", "s+", concat},
       {"file_exists", "s", fileExists, false},
@@ -123,7 +124,7 @@ std::vector<Builtin> stringBuiltins() {
        [](const Call& c) { return made(c, layout(c, c.number(0), c.integer(1), c.integer(2))); }},
       {"strcmp", "ss",
        [](const Call& c) -> Datum { return Numbers(difference(c.text(0), c.text(1))); }},
-      {"strlen", "s", [](const Call& c) -> Datum { return Numbers(double(c.text(0).size())); }},
+      {"strlen", "s", [](const Call& c) -> Datum { return Numbers(double(lengthOf(c.text(0)))); }},
       {"strlwr", "s", changeCase<false>},
       {"strupr", "s", changeCase<true>},
       {"substr", "snn", part},

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "lang/utf8.h"
+
 namespace vestige::lang {
 namespace {
 
@@ -180,21 +182,12 @@ class Lexer {
       return;
     }
     at_ += 4;
-    if (code < 0x80) {
-      value += char(code);
-    } else if (code < 0x800) {
-      value += char(0xC0 | (code >> 6));
-      value += char(0x80 | (code & 0x3F));
-    } else {
-      value += char(0xE0 | (code >> 12));
-      value += char(0x80 | ((code >> 6) & 0x3F));
-      value += char(0x80 | (code & 0x3F));
-    }
+    value += utf8(code);
   }
 
   Token directive(std::size_t begin) {
     ++at_;
-    while (peek() == ' ' || peek() == '\t') ++at_;
+    while (peek() == ' ' || peek() == '\t' || peek() == '\n' || peek() == '\r') ++at_;
     const std::size_t name = at_;
     while (isWordPart(peek())) ++at_;
     if (at_ == name) {
