@@ -127,11 +127,17 @@ Datum Evaluator::binary(const Expr& e, Arguments a) {
   const Datum left = evaluate(*e.args[0], a), right = evaluate(*e.args[1], a);
   const auto* s = std::get_if<TextPtr>(&left);
   const auto* t = std::get_if<TextPtr>(&right);
-  if (s && t && isRelation(e.word)) {
-    context_.budget.copy(e.span, std::min((*s)->size(), (*t)->size()));
-    return Numbers(relation(e.word, (*s)->compare(**t), 0));
-  }
   const std::string who = "'" + e.word + "'";
+  if (s && isRelation(e.word)) {
+    if (t) {
+      context_.budget.copy(e.span, std::min((*s)->size(), (*t)->size()));
+      return Numbers(relation(e.word, (*s)->compare(**t), 0));
+    }
+    if (!isBroken(right))
+      context_.reporter.error(e.args[1]->span,
+                              who + " after a string takes a string, found " + describe(right));
+    return {};
+  }
   const Numbers* x = wantNumbers(left, *e.args[0], who);
   const Numbers* y = wantNumbers(right, *e.args[1], who);
   if (!x || !y) return {};

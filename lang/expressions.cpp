@@ -30,6 +30,7 @@ constexpr const char* kChannels[] = {"red", "green", "blue", "filter", "transmit
 
 /// The place of a channel in a colour; -1: not the name of one.
 int channelOf(const Token& t) {
+  if (t.kind != Token::Kind::name) return -1;
   for (int i = 0; i < 5; ++i)
     if (t.isWord(kChannels[i])) return i;
   return -1;
@@ -277,12 +278,13 @@ ExprPtr ExpressionParser::comparison() {
 
 // sum := product { ('+' | '-') product } | colour [channels] | channels
 ExprPtr ExpressionParser::sum() {
-  const Token t = stream_.peek();
-  if (isColourWord(t)) {
+  if (isColourWord(stream_.peek())) {
     ExprPtr plain = colour(true);
-    return isChannelAhead() ? channels(std::move(plain)) : std::move(plain);
+    // `filter "box"` is the next setting of a block.
+    const bool isSetting = stream_.peekRaw(1).kind == Token::Kind::string;
+    return isChannelAhead() && !isSetting ? channels(std::move(plain)) : std::move(plain);
   }
-  if (isChannelAhead() && !context_.symbols.find(t.text)) return channels(nullptr);
+  if (isChannelAhead() && !context_.symbols.find(stream_.peek().text)) return channels(nullptr);
   return chain(&ExpressionParser::product, {"+", "-"});
 }
 

@@ -6,6 +6,7 @@
 #include "lang/lang.h"
 #include "lang/printable.h"
 #include "lang/source.h"
+#include "lang/utf8.h"
 
 namespace vestige::lang {
 namespace {
@@ -18,23 +19,21 @@ constexpr int kLongChain = 10;  ///< calls shown in full
 constexpr std::string_view kPlain = "\x1b[0m", kBold = "\x1b[1m", kRed = "\x1b[1;31m",
                            kYellow = "\x1b[1;33m", kCyan = "\x1b[1;36m", kGreen = "\x1b[1;32m";
 
-bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
-
 /// The characters of a line, one string each; controls become '?', tabs the blanks they stand for.
 std::vector<std::pair<std::string, std::uint32_t>> glyphs(const std::string& text,
                                                           std::uint32_t begin, std::uint32_t end) {
   std::vector<std::pair<std::string, std::uint32_t>> out;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const char c = text[i];
-    if (c == '\t') do
-        out.emplace_back(" ", i);
+  const std::string_view line(text.data() + begin, end - begin);
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t bytes = characterAt(line, at).bytes;
+    const auto place = std::uint32_t(begin + at);
+    if (line[at] == '\t') do
+        out.emplace_back(" ", place);
       while (out.size() % kTab != 0);
-    else if (isContinuation(c) && !out.empty())
-      out.back().first += c;
     else
-      out.emplace_back(static_cast<unsigned char>(c) < 32 || c == 127 ? "?" : std::string(1, c), i);
+      out.emplace_back(line[at] == '\n' ? "?" : printable(line.substr(at, bytes)), place);
+    at += bytes;
   }
-  for (auto& [glyph, at] : out) glyph = printable(glyph);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "lang/lang.h"
+#include "lang/utf8.h"
 
 namespace vestige::lang {
 namespace {
@@ -12,23 +13,8 @@ namespace {
 /// recursion does not fill the memory.
 constexpr std::size_t kMostExpansions = 1'000'000;
 
-bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
-
-/// The bytes of the character that begins at `i`; 1 for a byte that is no UTF-8.
-std::uint32_t characterLength(const std::string& text, std::size_t i) {
-  const auto lead = static_cast<unsigned char>(text[i]);
-  const std::uint32_t length = lead >= 0xF8   ? 1
-                               : lead >= 0xF0 ? 4
-                               : lead >= 0xE0 ? 3
-                               : lead >= 0xC0 ? 2
-                                              : 1;
-  for (std::uint32_t k = 1; k < length; ++k)
-    if (i + k >= text.size() || !isContinuation(text[i + k])) return 1;
-  return length;
-}
-
-/// UTF-16 takes two code units for what is beyond the basic plane, which UTF-8 writes with 4 bytes.
-int utf16Units(std::uint32_t length) { return length == 4 ? 2 : 1; }
+/// UTF-16 takes two code units for what is beyond the basic plane.
+int utf16Units(const Character& c) { return c.code > 0xFFFF ? 2 : 1; }
 
 }  // namespace
 
@@ -97,10 +83,10 @@ Position Sources::position(int file, std::uint32_t offset) const {
   p.line = lineOf(file, offset);
   std::uint32_t i = t.lineStarts[std::size_t(p.line)];
   while (i < offset) {
-    const std::uint32_t length = characterLength(t.text, i);
-    i += length;
+    const Character c = characterAt(t.text, i);
+    i += std::uint32_t(c.bytes);
     ++p.column;
-    p.utf16Column += utf16Units(length);
+    p.utf16Column += utf16Units(c);
   }
   return p;
 }
@@ -113,10 +99,10 @@ std::uint32_t Sources::offset(int file, int line, int utf16Column) const {
   std::uint32_t i = t.lineStarts[l];
   if (end > i && t.text[end - 1] == '\r') --end;
   while (i < end) {
-    const std::uint32_t length = characterLength(t.text, i);
-    utf16Column -= utf16Units(length);
+    const Character c = characterAt(t.text, i);
+    utf16Column -= utf16Units(c);
     if (utf16Column < 0) break;
-    i += length;
+    i += std::uint32_t(c.bytes);
   }
   return i;
 }

@@ -51,6 +51,8 @@ TEST_CASE("a BRDF holds a medium, which holds a phase function", "[scene][plugin
 TEST_CASE("media and phase functions that are missing or refused", "[scene][plugin]") {
   CHECK_THAT(refusal(wall("brdf foggy { inside fog { } }")),
              containsText("fog needs a phase function"));
-  CHECK_THAT(refusal(wall("brdf foggy { inside fog { phase lean { a 2 } } }")), containsText("a"));
-  CHECK_THAT(refusal(wall("brdf foggy { inside lean { } }")), containsText("lean"));
+  CHECK_THAT(refusal(wall("brdf foggy { inside fog { phase lean { a 2 } } }")),
+             containsText("'a' must be between -1 and 1, found 2"));
+  CHECK_THAT(refusal(wall("brdf foggy { inside lean { } }")),
+             containsText("no medium is called 'lean': expected fog"));
 }

@@ -65,6 +65,20 @@ TEST_CASE("numbers become vectors, vectors become colours", "[lang]") {
               0.2140411, 0, 1);
 }
 
+TEST_CASE("a channel behind a colour belongs to it, a setting of that name does not", "[lang]") {
+  const SceneDesc s = scene(
+      "light point { location 0 intensity rgb 1 red 3 }"
+      "light point { location 0 intensity green 2 blue 4 }"
+      "light slide { radiance rgb 1 filter \"linear\" }"
+      "light slide { radiance rgb 1 filter linear }");
+  checkColour(s.blocks[0], "intensity", 3, 1, 1);
+  checkColour(s.blocks[1], "intensity", 0, 2, 4);
+  for (const std::size_t i : {2u, 3u}) {
+    CHECK(s.blocks[i].find("filter")->text == "linear");
+    checkColour(s.blocks[i], "radiance", 1, 1, 1);
+  }
+}
+
 TEST_CASE("a flag may stand alone", "[lang]") {
   const char* head = "light area { 0, x, z ";
   CHECK(number(scene(std::string(head) + "two_sided }").blocks[0], "two_sided") == 1);

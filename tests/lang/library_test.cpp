@@ -6,8 +6,10 @@
 #include "support/catch.h"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
+#include "tests/lang/povray_rows.h"
 #include "tests/lang/schemas.h"
 
 namespace vestige::lang::test {
@@ -273,22 +275,6 @@ std::string resultOf(const char* file, const Row& row) {
   return shown(kPrelude + included(file) + row.text);
 }
 
-/// Equal but for the numbers, which may differ by `tolerance`.
-bool isNear(const std::string& a, const std::string& b, double tolerance) {
-  const char *p = a.c_str(), *q = b.c_str();
-  while (*p && *q) {
-    char *pEnd, *qEnd;
-    const double x = std::strtod(p, &pEnd), y = std::strtod(q, &qEnd);
-    if (pEnd == p || qEnd == q) {
-      if (*p++ != *q++) return false;
-    } else {
-      if (!(std::abs(x - y) <= tolerance)) return false;
-      p = pEnd, q = qEnd;
-    }
-  }
-  return *p == *q;
-}
-
 template <std::size_t N>
 void checkExact(const char* file, const Row (&rows)[N]) {
   for (const Row& row : rows) {
@@ -325,11 +311,13 @@ TEST_CASE("vectors of five components have POV-Ray's values", "[lang]") {
 }
 
 TEST_CASE("the comparison of the library's rows sees differences", "[lang]") {
-  CHECK(isNear("1.0,2|x", "1.0000001,2|x", 3e-7));
-  CHECK_FALSE(isNear("1.0,2|x", "1.000001,2|x", 3e-7));
+  CHECK(isNear("1.0000000,2|x", "1.0000001,2|x", 3e-7));
+  CHECK_FALSE(isNear("1.000000,2|x", "1.000001,2|x", 3e-7));
   CHECK_FALSE(isNear("1,2", "1,2,3", 3e-7));
   CHECK_FALSE(isNear("1|", "1,", 3e-7));
-  CHECK_FALSE(isNear("nan", "1", 3e-7));
+  CHECK_FALSE(isNear("1.0", " 1.0", 3e-7));
+  CHECK_FALSE(isNear("  1", "001", 3e-7));
+  CHECK_FALSE(isNear("nan", "1.0", 3e-7));
 }
 
 // POV-Ray's manual describes these; its files do not have them, or stop with an error.
@@ -344,7 +332,9 @@ TEST_CASE("what POV-Ray's manual describes and its files lack", "[lang]") {
     const double peak = 0.25;
     const double number =
         each < peak ? 1 + 4 * std::sqrt(each * peak) : 5 - 4 * std::sqrt((1 - each) * (1 - peak));
-    expected.append(expected.empty() ? "" : "|").append(std::to_string(number));
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.12f", number);
+    expected.append(expected.empty() ? "" : "|").append(digits);
   }
   CHECK(isNear(is("rand", "#declare R = seed(7); #for (I, 1, 3) ShowN(Rand_Tri(1, 5, 2, R)) #end"),
                expected, 2e-6));

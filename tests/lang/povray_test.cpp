@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "tests/lang/povray_rows.h"
 #include "tests/lang/schemas.h"
 
 namespace vestige::lang::test {
@@ -299,23 +300,6 @@ std::string joined(const std::string& lines) {
   }
   if (!s.empty() && s.back() == '|') s.pop_back();
   return s;
-}
-
-/// Equal text, but for numbers that differ by the tolerance and take as many characters.
-bool isNear(const std::string& a, const std::string& b, double tolerance) {
-  if (a.size() != b.size()) return false;
-  const char *p = a.c_str(), *q = b.c_str();
-  while (*p && *q) {
-    char *pEnd = nullptr, *qEnd = nullptr;
-    const double x = std::strtod(p, &pEnd), y = std::strtod(q, &qEnd);
-    if (pEnd != p && pEnd - p == qEnd - q) {
-      if (!(std::abs(x - y) <= tolerance * std::max(1.0, std::abs(y)))) return false;
-      p = pEnd, q = qEnd;
-    } else if (*p++ != *q++) {
-      return false;
-    }
-  }
-  return true;
 }
 
 }  // namespace

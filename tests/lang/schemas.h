@@ -79,6 +79,8 @@ inline const SchemaSource& schemas() {
                  "",
                  {point("corner"), point("edge1"), point("edge2"), rgb("radiance", 1),
                   boolean("two_sided", false)}});
+    s.push_back(
+        {"light", "slide", "", {rgb("radiance", 1), choice("filter", {"nearest", "linear"})}});
     s.push_back({"light", "environment", "", {rgb("radiance", 1), block("image", "pigment")}});
     s.push_back({"brdf", "lambert", "", {}, {textured(rgb("diffuse", 0.5).range(0, 1))}});
     s.push_back(
