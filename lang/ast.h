@@ -1,63 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expression trees. A name is replaced by its value when it is read, as in POV-Ray: a directive
-// between two operands may change the name without changing the tree.
+// What an expression is made of. Outside functions it is evaluated while it is read and leaves no
+// tree. A name is replaced by its value when it is read, as in POV-Ray: a directive between two
+// operands may change the name.
 #pragma once
+#include <array>
 #include <memory>
-#include <string>
+#include <span>
 #include <vector>
 
-#include <vestige/function.h>
-
+#include "lang/names.h"
 #include "lang/value.h"
 
 namespace vestige::lang {
 
-struct Builtin;  // builtins.h
+class Program;  // program.h
 struct Expr;
 using ExprPtr = std::unique_ptr<Expr>;
 
-struct Expr {
-  enum class Kind {
-    constant,   ///< `value`
-    parameter,  ///< number `slot` of the function around it
-    unary,      ///< `word`: + - !
-    binary,     ///< `word`: * / % + - < <= = >= > != & |
-    choose,     ///< args: condition, then, else
-    vector,     ///< args: 2 to 5 components
-    colour,     ///< `word`: rgb, rgbf, srgb, ..., color; args: one
-    channels,   ///< red R green G ...: args in the order of the five, then a colour whose channels
-                ///< these replace; null: not given
-    member,     ///< `word`: x, red, ...; args: one
-    index,      ///< args: an array, then its indices
-    builtin,    ///< `function`, args
-    invoke,     ///< value: a function; args
+/// A step of an expression, without its operands.
+struct Operation {
+  enum class Kind : std::uint8_t {
+    constant,   ///< a value
+    parameter,  ///< a number, parameter `slot` of the function around it
+    unary,      ///< `op`: plus, minus, invert
+    binary,     ///< `op`
+    choose,     ///< operands: condition, then, else
+    vector,     ///< operands: 2 to 5 components
+    colour,     ///< `word`: rgb, rgbf, srgb, ..., color; operands: one
+    channels,   ///< red R green G ...: operands in the order of the five, then a colour whose
+                ///< channels these replace; `given`: which there are
+    member,     ///< `word`: x, red, ...; operands: one
+    index,      ///< operands: an array, then its indices
+    builtin,    ///< `name->builtin`
+    invoke,     ///< operands: a function called `name`, then its arguments
   };
   Kind kind = Kind::constant;
-  Span span;
-  Span wordSpan;  ///< span of the operator, the member or the function's name
-  Datum value;
-  std::string word;
-  int slot = 0;
-  int depth = 1;          ///< of the tree
-  std::int64_t size = 1;  ///< number of nodes of the tree
-  const Builtin* function = nullptr;
-  std::vector<ExprPtr> args;
+  Op op = Op::none;
+  Word word = Word::none;
+  std::uint8_t given = 0;  ///< a bit for each operand
+  std::int32_t slot = 0;
+  Span span = {};      ///< operands included
+  Span wordSpan = {};  ///< the operator, the member or the function's name
+  const Name* name = nullptr;
+};
 
-  bool isConstant() const { return kind == Kind::constant; }
+/// An operand with its value, or, inside a function, with its tree.
+struct Operand {
+  Datum value;
+  Span span;
+  ExprPtr tree = nullptr;
+
   /// Whether an operator can follow: not after a string, a block, a transform or a bare array.
   bool mayCount() const {
-    return !isConstant() || isBroken(value) || std::holds_alternative<Numbers>(value);
+    return tree || isBroken(value) || std::holds_alternative<Numbers>(value);
   }
+};
+
+/// A tree, which only the body of a function needs.
+struct Expr {
+  Operation operation;
+  Datum value;  ///< of a constant
+  int depth = 1;
+  std::vector<ExprPtr> operands;  ///< null: not given
 };
 
 /// `function(a, b) { a*b + 1 }`, or `function { transform { T } }` with three parameters.
 struct Function {
-  std::vector<const std::string*> parameters;
+  std::vector<const Name*> parameters;
   ExprPtr body;      ///< null: `transform`
   Affine transform;  ///< gives a vector
   Share bytes = {};
-  mutable std::shared_ptr<const vestige::Function> program =
-      nullptr;  ///< created when a block uses the function
+  mutable std::shared_ptr<const Program> program = nullptr;  ///< made at the first use
+  mutable bool isTree = false;  ///< it has no program: its expression is not one of numbers
 };
 
 }  // namespace vestige::lang

@@ -10,8 +10,10 @@ constexpr std::size_t kShortText = 16;
 /// Bytes that two blocks of memory take beside their contents.
 constexpr std::size_t kBlocks = 48;
 
-struct CountedText {
-  std::string text;
+/// A value with its share of the memory.
+template <class T>
+struct Counted {
+  T value;
   Share share;
 };
 
@@ -20,10 +22,17 @@ struct CountedText {
 Datum Budget::text(const Span& span, std::string s) {
   copy(span, s.size());
   if (s.size() < kShortText) return textDatum(std::move(s));
-  const auto counted = std::make_shared<CountedText>();
-  counted->share = take(span, sizeof(CountedText) + kBlocks + s.size());
-  counted->text.assign(s);  // without the space that it grew by
-  return TextPtr(counted, &counted->text);
+  const auto counted = std::make_shared<Counted<std::string>>();
+  counted->share = take(span, sizeof *counted + kBlocks + s.size());
+  counted->value.assign(s);  // without the space that it grew by
+  return TextPtr(counted, &counted->value);
+}
+
+Datum Budget::transform(const Span& span, const Affine& a) {
+  const auto counted = std::make_shared<Counted<Affine>>();
+  counted->share = take(span, sizeof *counted + kBlocks);
+  counted->value = a;
+  return AffinePtr(counted, &counted->value);
 }
 
 void Budget::stopAtSteps(const Span& span) {

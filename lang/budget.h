@@ -45,6 +45,8 @@ class Budget {
   }
   /// A string that counts as long as it lives.
   Datum text(const Span& span, std::string s);
+  /// A transform, likewise.
+  Datum transform(const Span& span, const Affine& a);
 
   /// Bytes now taken, for parts that count by themselves.
   const Total& bytes() const { return bytes_; }

@@ -18,13 +18,10 @@ const std::map<std::string, Builtin>& table() {
   return all;
 }
 
+constexpr std::size_t kAnyNumber = SIZE_MAX;
+
 std::string plural(std::size_t n) {
   return std::to_string(n) + (n == 1 ? " argument" : " arguments");
-}
-
-/// The signature's letter for argument i.
-char letterOf(const std::string& letters, std::size_t i) {
-  return letters[std::min(i, letters.size() - 1)];
 }
 
 bool fits(Datum& d, char letter) {
@@ -44,15 +41,12 @@ const char* wanted(char letter) {
                          : "a vector";
 }
 
-bool hasRightCount(const Builtin& b, const Call& call, const std::string& letters,
-                   std::size_t least, bool repeats) {
-  const std::size_t n = call.args.size();
-  if (n >= least && (repeats || n <= letters.size())) return true;
-  const std::string count =
-      repeats ? "at least " + plural(least)
-      : least < letters.size()
-          ? std::to_string(least) + " to " + plural(letters.size())
-          : (letters.empty() ? std::string("no arguments") : plural(letters.size()));
+bool hasRightCount(const Builtin& b, const Call& call) {
+  const std::size_t n = call.args.size(), least = b.least(), most = b.most();
+  if (b.fits(n)) return true;
+  const std::string count = most == kAnyNumber ? "at least " + plural(least)
+                            : least < most     ? std::to_string(least) + " to " + plural(most)
+                                               : (most == 0 ? "no arguments" : plural(most));
   call.context.reporter.error(
       call.span, std::string(b.name) + "() takes " + count + ", found " + std::to_string(n));
   return false;
@@ -67,12 +61,12 @@ int Call::integer(std::size_t i) const {
 }
 
 Datum Call::complain(std::size_t i, const std::string& message) const {
-  context.reporter.error(i < spans.size() ? spans[i] : span, message);
+  context.reporter.error(i < args.size() ? args.span(i) : span, message);
   return {};
 }
 
 void Call::warn(std::size_t i, const std::string& message) const {
-  context.reporter.warning(i < spans.size() ? spans[i] : span, message);
+  context.reporter.warning(i < args.size() ? args.span(i) : span, message);
 }
 
 const Builtin* findBuiltin(const std::string& name) {
@@ -86,25 +80,40 @@ std::vector<std::string> builtinNames() {
   return names;
 }
 
-Datum applyBuiltin(const Builtin& builtin, const Call& given) {
-  Call call = given;
-  std::string letters = builtin.signature;
-  const bool repeats = !letters.empty() && letters.back() == '+';
-  if (repeats) letters.pop_back();
-  const std::size_t bar = letters.find('|');
-  const std::size_t least = bar == std::string::npos ? letters.size() : bar;
-  if (bar != std::string::npos) letters.erase(bar, 1);
-  for (const Datum& d : call.args)
-    if (isBroken(d)) return {};
-  if (!hasRightCount(builtin, call, letters, least, repeats)) return {};
-  for (std::size_t i = 0; i < call.args.size(); ++i) {
-    const char letter = letterOf(letters, i);
+// The signature holds a letter for each argument, '|' before those that may be left out, and '+'
+// behind the last one if it repeats.
+char Builtin::letter(std::size_t i) const {
+  const std::string_view s = signature;
+  const std::size_t bar = s.find('|');
+  return i < bar ? s[std::min(i, s.size() - (s.back() == '+' ? 2 : 1))] : s[i + 1];
+}
+
+std::size_t Builtin::least() const {
+  const std::string_view s = signature;
+  const std::size_t bar = s.find('|');
+  if (bar != s.npos) return bar;
+  return !s.empty() && s.back() == '+' ? s.size() - 1 : s.size();
+}
+
+std::size_t Builtin::most() const {
+  const std::string_view s = signature;
+  if (!s.empty() && s.back() == '+') return kAnyNumber;
+  return s.find('|') == s.npos ? s.size() : s.size() - 1;
+}
+
+Datum applyBuiltin(const Builtin& builtin, Context& context, const Span& span,
+                   std::span<Operand> operands) {
+  const Call call{context, span, Arguments(operands)};
+  for (const Operand& o : operands)
+    if (isBroken(o.value)) return {};
+  if (!hasRightCount(builtin, call)) return {};
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    const char letter = builtin.letter(i);
     if (!fits(call.args[i], letter))
       return call.complain(i, std::string(builtin.name) + "() takes " + wanted(letter) + " here" +
                                   ", found " + describe(call.args[i]));
+    if (letter == 's') context.budget.copy(span, call.text(i).size());
   }
-  for (const Datum& d : call.args)
-    if (const auto* s = std::get_if<TextPtr>(&d)) call.context.budget.copy(call.span, (*s)->size());
   return builtin.apply(call);
 }
 

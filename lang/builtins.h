@@ -4,17 +4,28 @@
 #include <string>
 #include <vector>
 
+#include "lang/ast.h"
 #include "lang/context.h"
-#include "lang/value.h"
 
 namespace vestige::lang {
 
-/// The arguments of a call, checked against the signature.
+/// The values of a call's operands.
+class Arguments {
+ public:
+  explicit Arguments(std::span<Operand> operands) : operands_(operands) {}
+  std::size_t size() const { return operands_.size(); }
+  Datum& operator[](std::size_t i) const { return operands_[i].value; }
+  const Span& span(std::size_t i) const { return operands_[i].span; }
+
+ private:
+  std::span<Operand> operands_;
+};
+
+/// A call whose arguments have been checked against the signature.
 struct Call {
   Context& context;
   Span span;  ///< of the whole call
-  std::vector<Datum> args;
-  std::vector<Span> spans;  ///< of the arguments
+  Arguments args;
 
   double number(std::size_t i) const { return std::get<Numbers>(args[i]).at(0); }
   Numbers vector(std::size_t i) const { return std::get<Numbers>(args[i]); }
@@ -33,13 +44,23 @@ struct Builtin {
   const char* signature;
   Datum (*apply)(const Call&);
   bool isPure = true;  ///< the same arguments give the same result
+
+  /// The signature's letter for argument i.
+  char letter(std::size_t i) const;
+  /// Number of arguments that a call must have and may have.
+  std::size_t least() const;
+  std::size_t most() const;
+  /// Whether that many arguments are valid.
+  bool fits(std::size_t count) const { return count >= least() && count <= most(); }
 };
 
-/// The built-in of that name, or null.
+/// The built-in of that name, or null. A Name has it already.
 const Builtin* findBuiltin(const std::string& name);
+inline const Builtin* findBuiltin(const Name& name) { return name.builtin; }
 std::vector<std::string> builtinNames();
 /// Checks the arguments against the signature and calls.
-Datum applyBuiltin(const Builtin& builtin, const Call& call);
+Datum applyBuiltin(const Builtin& builtin, Context& context, const Span& span,
+                   std::span<Operand> operands);
 
 // By subject; each in its own file.
 std::vector<Builtin> numberBuiltins();

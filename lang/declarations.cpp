@@ -12,8 +12,8 @@ Parser::Declared Parser::value(ExpressionParser::Place place) {
   const Token t = stream_.peek();
   const bool isName = t.kind == Token::Kind::name;
   if (isName && t.isWord("transform")) {
-    const Affine a = transform();
-    return {a, context_.sources.join(t.span, stream_.last())};
+    Datum a = context_.budget.transform(t.span, transform());
+    return {std::move(a), context_.sources.join(t.span, stream_.last())};
   }
   if (isName && words_.opensBlock(*t.text)) {
     auto declared = std::make_shared<const Block>(block());
@@ -95,17 +95,17 @@ Affine Parser::matrix() {
 
 // 'transform' (name | '{' { transform | name | 'inverse' } '}')
 Affine Parser::transformBlock() {
-  const auto named = [&](const Token& t) -> const Affine* {
-    const Cell cell = t.kind == Token::Kind::name ? context_.symbols.find(t.text) : nullptr;
-    return cell ? std::get_if<Affine>(&cell->value) : nullptr;
+  const auto named = [&](const Token& t) {
+    const Datum* value = t.isName() ? context_.symbols.value(t.text) : nullptr;
+    const auto* found = value ? std::get_if<AffinePtr>(value) : nullptr;
+    return found ? *found : nullptr;
   };
   const Span word = stream_.last();
   const Nested nested(context_, word);
   const Token ahead = stream_.peek();
-  if (const Affine* a = named(ahead)) {
-    const Affine copy = *a;
+  if (const AffinePtr a = named(ahead)) {
     stream_.next();
-    return copy;
+    return *a;
   }
   if (!stream_.accept("{"))
     expressions_.unexpected("'{' or the name of a declared transform after 'transform'");
@@ -114,7 +114,7 @@ Affine Parser::transformBlock() {
     const Token t = stream_.peek();
     if (t.kind == Token::Kind::name && isTransformWord(*t.text)) {
       all = transform() * all;
-    } else if (const Affine* a = named(t)) {
+    } else if (const AffinePtr a = named(t)) {
       all = *a * all;
       stream_.next();
     } else if (t.isWord("inverse")) {

@@ -27,10 +27,17 @@ Directives::Handler Directives::handlerOf(const std::string& word) {
   return found == all.end() ? nullptr : found->second;
 }
 
+Directives::Handler Directives::handlerFor(const Name& word) {
+  if (word.id >= handlers_.size()) handlers_.resize(std::size_t(word.id) + 1);
+  Handler& known = handlers_[word.id];
+  if (!known) known = handlerOf(word);
+  return known;
+}
+
 void Directives::obey(const Token& directive) {
   const Nested nested(context_, directive.span);
   const int level = stream_.braces();
-  const auto handler = handlerOf(*directive.text);
+  const auto handler = handlerFor(*directive.text);
   try {
     if (handler) {
       (this->*handler)(directive);
@@ -86,8 +93,8 @@ Token Directives::newName(const Token& directive) {
   if (context_.symbols.find(name.text)) return name;
   if (const char* instead = insteadOf(word))
     context_.reporter.syntaxError(name.span, "'" + word + "' is a word of POV-Ray's: " + instead);
-  const bool isTaken =
-      isExpressionWord(word) || isTransformWord(word) || parser_.words().opensBlock(word);
+  const bool isTaken = isExpressionWord(*name.text) || isTransformWord(*name.text) ||
+                       parser_.words().opensBlock(*name.text);
   // (Parameters of macros may be called like u and v, and then be assigned to: found above.)
   if (isTaken && word != "clock")
     context_.reporter.syntaxError(name.span, "'" + word +

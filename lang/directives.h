@@ -13,12 +13,14 @@ class Directives {
 
   /// Executes the directive that the stream has just read. Recovers from an error in it.
   void obey(const Token& directive);
-  /// If `name` is a macro: reads the arguments and makes the stream read the body.
-  bool expand(const Token& name);
+  /// Reads the arguments of a macro and makes the stream read its body.
+  void expand(const Token& name);
 
  private:
   using Handler = void (Directives::*)(const Token&);
   static Handler handlerOf(const std::string& word);
+  /// The same, remembered.
+  Handler handlerFor(const Name& word);
 
   // Names.
   void declare(const Token& directive);
@@ -70,6 +72,7 @@ class Directives {
   TokenStream& stream_;
   Parser& parser_;
   Includes& includes_;
+  std::vector<Handler> handlers_;  ///< by the word's id
   std::int64_t loops_ = 0;
 };
 

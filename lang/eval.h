@@ -1,48 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// Evaluates expressions. A faulty one is reported once and yields std::monostate, which later steps
-// accept silently.
+// Evaluates steps of expressions, and the functions that they call.
 #pragma once
-#include <span>
-
-#include "lang/ast.h"
-#include "lang/context.h"
+#include "lang/operations.h"
 
 namespace vestige::lang {
 
 class Evaluator {
  public:
-  explicit Evaluator(Context& context) : context_(context) {}
+  explicit Evaluator(Context& context) : context_(context), operations_(context) {}
+
+  /// A step whose operands have their values.
+  Datum apply(const Operation& o, std::span<Operand> operands) {
+    return o.kind == Operation::Kind::invoke ? invoke(o, operands) : operations_.apply(o, operands);
+  }
+  /// The condition of a choice, or nothing if an error was reported.
+  std::optional<bool> condition(const Operand& operand);
+
+  /// A tree without parameters.
   Datum evaluate(const Expr& e) { return evaluate(e, {}); }
 
  private:
   using Arguments = std::span<const double>;  ///< arguments of the enclosing function
 
   Datum evaluate(const Expr& e, Arguments a);
-  Datum unary(const Expr& e, Arguments a);
-  Datum binary(const Expr& e, Arguments a);
   Datum choose(const Expr& e, Arguments a);
-  Datum vector(const Expr& e, Arguments a);
-  Datum colour(const Expr& e, Arguments a);
-  Datum channels(const Expr& e, Arguments a);
-  Datum member(const Expr& e, Arguments a);
-  Datum index(const Expr& e, Arguments a);
-  Datum builtin(const Expr& e, Arguments a);
-  Datum invoke(const Expr& e, Arguments a);
-
-  /// The numbers of an operand, or null after an error that names the operator.
-  const Numbers* wantNumbers(const Datum& d, const Expr& operand, const std::string& who);
-  /// A single number, or nothing if an error was reported.
-  bool wantNumber(const Datum& d, const Expr& operand, const std::string& who, double& x);
-  double apply(const std::string& op, double x, double y, const Expr& e);
+  Datum invoke(const Operation& o, std::span<const Operand> operands);
+  Datum call(const Operation& o, const Function& f);
 
   Context& context_;
+  Operations operations_;
+  std::vector<double> arguments_;  ///< of the call that is being made
   int depth_ = 0;
-  int calls_ = 0;  ///< of functions in which evaluation is: their nodes are steps
 };
-
-/// The position of A[i][j] in the array's data, or nothing if an error was reported.
-std::optional<std::size_t> elementAt(Context& context, const Array& array,
-                                     const std::vector<double>& indices,
-                                     const std::vector<Span>& spans);
 
 }  // namespace vestige::lang

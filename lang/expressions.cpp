@@ -1,69 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/expressions.h"
 
-#include <map>
+#include <algorithm>
+#include <utility>
 
 #include "lang/builtins.h"
 
 namespace vestige::lang {
 namespace {
 
-/// Deeper trees are folded to a constant immediately, so that a sum of a million terms needs no
-/// stack.
-constexpr int kDeepTree = 64;
-/// Bytes of a node, its operator and its place among the arguments.
-constexpr std::size_t kNodeBytes = sizeof(Expr) + 48;
-/// A function's tree is never folded.
+/// Deepest tree of a function.
 constexpr int kDeepestFunction = 250;
-
-constexpr const char* kSwizzles[] = {"x",     "y",    "z",      "t",        "u",    "v",   "red",
-                                     "green", "blue", "filter", "transmit", "gray", "grey"};
-
-bool isColourWord(const Token& t) {
-  if (t.kind != Token::Kind::name) return false;
-  static const std::set<std::string> words = {"rgb",   "rgbf",  "rgbt",   "rgbft", "srgb",
-                                              "srgbf", "srgbt", "srgbft", "color", "colour"};
-  return words.count(*t.text) > 0;
-}
-
-constexpr const char* kChannels[] = {"red", "green", "blue", "filter", "transmit"};
-
-/// The place of a channel in a colour; -1: not the name of one.
-int channelOf(const Token& t) {
-  if (t.kind != Token::Kind::name) return -1;
-  for (int i = 0; i < 5; ++i)
-    if (t.isWord(kChannels[i])) return i;
-  return -1;
-}
+/// Bytes of a node and its place among the operands.
+constexpr std::size_t kNodeBytes = sizeof(Expr) + 48;
 
 /// x, pi, true, ...; std::monostate: not a constant.
-Datum constantOf(const std::string& word, double version) {
-  static const std::map<std::string, double> numbers = {{"pi", 3.14159265358979323846},
-                                                        {"tau", 6.28318530717958647692},
-                                                        {"true", 1},
-                                                        {"yes", 1},
-                                                        {"on", 1},
-                                                        {"false", 0},
-                                                        {"no", 0},
-                                                        {"off", 0},
-                                                        {"clock", 0}};
-  if (word == "version") return Numbers(version);
-  if (const auto n = numbers.find(word); n != numbers.end()) return Numbers(n->second);
-  static const std::map<std::string, std::pair<int, int>> axes = {
-      {"x", {3, 0}}, {"y", {3, 1}}, {"z", {3, 2}}, {"t", {4, 3}}, {"u", {2, 0}}, {"v", {2, 1}}};
-  const auto axis = axes.find(word);
-  if (axis == axes.end()) return {};
-  Numbers n;
-  n.size = axis->second.first;
-  n.v[std::size_t(axis->second.second)] = 1;
-  return n;
-}
-
-/// Directives with an effect of their own, unlike #if or #end, which choose the text to read.
-bool isStatement(const Token& t) {
-  static const std::set<std::string> words = {"declare", "local",   "undef", "macro",  "include",
-                                              "debug",   "warning", "error", "version"};
-  return t.kind == Token::Kind::directive && words.count(*t.text) > 0;
+Datum constantOf(Word word, double version) {
+  const auto axis = [](int size, std::size_t i) {
+    Numbers n;
+    n.size = size;
+    n.v[i] = 1;
+    return n;
+  };
+  switch (word) {
+    case Word::x:
+      return axis(3, 0);
+    case Word::y:
+      return axis(3, 1);
+    case Word::z:
+      return axis(3, 2);
+    case Word::t:
+      return axis(4, 3);
+    case Word::u:
+      return axis(2, 0);
+    case Word::v:
+      return axis(2, 1);
+    case Word::pi:
+      return Numbers(3.14159265358979323846);
+    case Word::tau:
+      return Numbers(6.28318530717958647692);
+    case Word::isTrue:
+    case Word::yes:
+    case Word::on:
+      return Numbers(1);
+    case Word::isFalse:
+    case Word::no:
+    case Word::off:
+    case Word::clock:
+      return Numbers(0);
+    case Word::version:
+      return Numbers(version);
+    default:
+      return {};
+  }
 }
 
 }  // namespace
@@ -82,29 +71,46 @@ class ExpressionParser::With {
   Mode before_;
 };
 
-/// The nodes that an expression creates, during its lifetime.
-class ExpressionParser::Tree {
+class ExpressionParser::Reads {
  public:
-  explicit Tree(ExpressionParser& parser) : parser_(parser), before_(parser.nodes_) {}
-  ~Tree() { parser_.nodes_ = before_; }
-  Tree(const Tree&) = delete;
-  Tree& operator=(const Tree&) = delete;
-  std::size_t bytes() const { return std::size_t(parser_.nodes_ - before_) * kNodeBytes; }
+  Reads(ExpressionParser& parser, Reading reading, const Function* function = nullptr)
+      : parser_(parser), reading_(parser.reading_), function_(parser.function_) {
+    parser.reading_ = reading;
+    if (reading != Reading::syntax) parser.function_ = function;
+  }
+  ~Reads() { parser_.reading_ = reading_, parser_.function_ = function_; }
+  Reads(const Reads&) = delete;
+  Reads& operator=(const Reads&) = delete;
 
  private:
   ExpressionParser& parser_;
-  std::int64_t before_;
+  Reading reading_;
+  const Function* function_;
+};
+
+class ExpressionParser::Operands {
+ public:
+  explicit Operands(ExpressionParser& parser) : stack_(parser.stack_), first_(stack_.size()) {}
+  ~Operands() { stack_.resize(first_); }
+  Operands(const Operands&) = delete;
+  Operands& operator=(const Operands&) = delete;
+  void add(Operand operand) { stack_.push_back(std::move(operand)); }
+  std::size_t size() const { return stack_.size() - first_; }
+  /// Valid until the next one is added, by anybody.
+  std::span<Operand> all() { return std::span(stack_).subspan(first_); }
+
+ private:
+  std::vector<Operand>& stack_;
+  std::size_t first_;
 };
 
 // ---------------------------------------------------------------- from outside
 ExpressionParser::Result ExpressionParser::evaluate(Place place) {
   const With mode(*this,
                   {place != Place::setting, place == Place::declaration, stream_.frame().via});
-  const Tree tree(*this);
-  const Function* around = std::exchange(function_, nullptr);
-  const ExprPtr e = expression();
-  function_ = around;
-  return {evaluator_.evaluate(*e), e->span};
+  const Reads reads(*this, Reading::values);
+  Operand e = expression();
+  return {std::move(e.value), e.span};
 }
 
 std::optional<double> ExpressionParser::condition() {
@@ -120,25 +126,20 @@ std::optional<double> ExpressionParser::condition() {
 
 ExpressionParser::Result ExpressionParser::operand() {
   const With mode(*this, {});
-  const Tree tree(*this);
-  const ExprPtr e = postfix();
-  return {evaluator_.evaluate(*e), e->span};
+  const Reads reads(*this, Reading::values);
+  Operand e = postfix();
+  return {std::move(e.value), e.span};
 }
 
 void ExpressionParser::functionBody(Function& function) {
   const Span open = stream_.peek().span;
   if (!stream_.accept("{")) unexpected("'{' before the function's expression");
   const With mode(*this, {true, false, -1});
-  const Tree tree(*this);
-  const Function* around = std::exchange(function_, &function);
-  try {
-    function.body = expression();
-  } catch (...) {
-    function_ = around;
-    throw;
-  }
-  function_ = around;
-  function.bytes = context_.budget.take(open, tree.bytes());
+  const Reads reads(*this, Reading::trees, &function);
+  const std::int64_t before = std::exchange(nodes_, 0);
+  function.body = leaf(expression());
+  function.bytes = context_.budget.take(open, std::size_t(nodes_) * kNodeBytes);
+  nodes_ = before;
   expect("}", open, "{");
 }
 
@@ -146,9 +147,9 @@ bool ExpressionParser::begins(const Token& t) const {
   if (t.kind == Token::Kind::number || t.kind == Token::Kind::string) return true;
   if (t.kind == Token::Kind::sign)
     return t.is("<") || t.is("(") || t.is("-") || t.is("+") || t.is("!");
-  if (t.kind != Token::Kind::name) return false;
-  return context_.symbols.find(t.text) || findBuiltin(*t.text) || isColourWord(t) ||
-         t.isWord("defined") || !isBroken(constantOf(*t.text, 0));
+  if (!t.isName()) return false;
+  return declared(t) || t.text->builtin || isColour(t.word()) || t.word() == Word::defined ||
+         !isBroken(constantOf(t.word(), 0));
 }
 
 void ExpressionParser::expect(const char* sign, const Span& open, const char* opener) {
@@ -191,58 +192,48 @@ void ExpressionParser::undeclared(const Token& name, const std::string& role) {
                                          : "no " + role + " is called '" + *name.text + "'" + hint);
 }
 
-// ---------------------------------------------------------------- building
-ExprPtr ExpressionParser::constant(Datum value, const Span& span) {
-  countNode(span);
+// ---------------------------------------------------------------- steps
+Operand ExpressionParser::made(Operation o, std::span<Operand> operands) {
+  o.span = o.span.file < 0 ? o.wordSpan : o.span;
+  for (const Operand& operand : operands)
+    if (operand.span.file >= 0) o.span = context_.sources.join(o.span, operand.span);
+  if (reading_ == Reading::syntax) return {{}, o.span};
+  if (isBuilding()) return tree(o, operands);
+  return {evaluator_.apply(o, operands), o.span};
+}
+
+Operand ExpressionParser::tree(const Operation& o, std::span<Operand> operands) {
   auto e = std::make_unique<Expr>();
-  e->value = std::move(value);
-  e->span = span;
-  return e;
-}
-
-/// Bounds the nodes that exist at one time, in all unfinished expressions.
-void ExpressionParser::countNode(const Span& span) {
-  constexpr std::int64_t kCheckEvery = 1024;
-  if (++nodes_ % kCheckEvery == 0) context_.budget.need(span, double(nodes_) * kNodeBytes);
-}
-
-ExprPtr ExpressionParser::bounded(ExprPtr e) {
-  for (const ExprPtr& arg : e->args)
-    if (arg) {
-      e->depth = std::max(e->depth, arg->depth + 1);
-      e->size += arg->size;
-    }
-  if (function_) {
-    if (e->depth > kDeepestFunction)
-      context_.reporter.syntaxError(e->span, "this function's expression is too long");
-    return e;
+  e->operation = o;
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    const bool isGiven = o.kind != Operation::Kind::channels || (o.given >> i & 1);
+    e->operands.push_back(isGiven ? leaf(std::move(operands[i])) : nullptr);
+    if (isGiven) e->depth = std::max(e->depth, e->operands.back()->depth + 1);
   }
-  if (e->depth <= kDeepTree) return e;
-  Datum value = evaluator_.evaluate(*e);
-  nodes_ -= e->size;
-  return constant(std::move(value), e->span);
+  if (e->depth > kDeepestFunction)
+    context_.reporter.syntaxError(o.span, "this function's expression is too long");
+  constexpr std::int64_t kCheckEvery = 1024;
+  if (++nodes_ % kCheckEvery == 0) context_.budget.need(o.span, double(nodes_) * kNodeBytes);
+  return {{}, o.span, std::move(e)};
 }
 
-ExprPtr ExpressionParser::node(Expr::Kind kind, const Span& span, std::string word,
-                               std::vector<ExprPtr> args) {
-  countNode(span);
+/// The tree of an operand; of a value, a new one.
+ExprPtr ExpressionParser::leaf(Operand&& operand) {
+  if (operand.tree) return std::move(operand.tree);
+  ++nodes_;
   auto e = std::make_unique<Expr>();
-  e->kind = kind;
-  e->span = e->wordSpan = span;
-  e->word = std::move(word);
-  e->args = std::move(args);
-  for (const ExprPtr& arg : e->args)
-    if (arg) e->span = context_.sources.join(e->span, arg->span);
-  return bounded(std::move(e));
+  e->operation.span = operand.span;
+  e->value = std::move(operand.value);
+  return e;
 }
 
 // The next token as an operator. In a declaration the next directive of the same text ends the
 // expression: a missing ';' must not make `#declare B` run before `#declare A` is done.
 const Token& ExpressionParser::operatorAhead() {
   static const Token nothing;  // no sign
-  if (mode_.endsAtDirective) {
+  if (mode_.endsAtDirective && stream_.isRawDirective()) {
     const Token raw = stream_.peekRaw();
-    if (isStatement(raw) && raw.span.via == mode_.via) return nothing;
+    if (isStatement(raw.text->word) && raw.span.via == mode_.via) return nothing;
   }
   return stream_.peek();
 }
@@ -250,215 +241,221 @@ const Token& ExpressionParser::operatorAhead() {
 // ---------------------------------------------------------------- the grammar
 // expression := choice                 where comparisons are welcome
 //             | sum                    elsewhere: '<' may begin the next vector
-ExprPtr ExpressionParser::expression() { return mode_.comparisons ? choice() : sum(); }
+Operand ExpressionParser::expression() { return mode_.comparisons ? choice() : binary(Level::sum); }
 
 // choice := logic ['?' choice ':' choice]
-ExprPtr ExpressionParser::choice() {
-  ExprPtr condition = logic();
-  if (!condition->mayCount() || !operatorAhead().is("?")) return condition;
+Operand ExpressionParser::choice() {
+  Operand condition = binary(Level::logic);
+  if (!condition.mayCount() || !operatorAhead().is("?")) return condition;
   const Span question = stream_.next().span;
   const Nested nested(context_, question);
-  std::vector<ExprPtr> args;
-  args.push_back(std::move(condition));
-  args.push_back(choice());
+  std::optional<bool> isFirst;
+  if (reading_ == Reading::values) isFirst = evaluator_.condition(condition);
+  Operand operands[3] = {std::move(condition)};
+  operands[1] = branch(isFirst.value_or(false));
   expect(":", question, "?");
-  args.push_back(choice());
-  return node(Expr::Kind::choose, question, "?", std::move(args));
+  operands[2] = branch(!isFirst.value_or(true));
+  Operation o{.kind = Operation::Kind::choose, .wordSpan = question};
+  if (reading_ != Reading::values) return made(o, operands);
+  Operand result;
+  result.span = context_.sources.join(operands[0].span, operands[2].span);
+  if (isFirst) result.value = std::move(operands[*isFirst ? 1 : 2].value);
+  return result;
+}
+
+Operand ExpressionParser::branch(bool isTaken) {
+  const bool drops = reading_ == Reading::values && !isTaken;
+  const Reads reads(*this, drops ? Reading::syntax : reading_, function_);
+  return choice();
 }
 
 // logic := comparison { ('&' | '|' | '&&' | '||') comparison }      one level, as POV-Ray
-ExprPtr ExpressionParser::logic() {
-  return chain(&ExpressionParser::comparison, {"&", "|", "&&", "||"});
-}
-
 // comparison := sum { ('<' | '<=' | '=' | '==' | '>=' | '>' | '!=') sum }
-ExprPtr ExpressionParser::comparison() {
-  return chain(&ExpressionParser::sum, {"<", "<=", "=", "==", ">=", ">", "!="});
+// sum := product { ('+' | '-') product } | colour [channels] | channels
+// product := signedOperand { ('*' | '/' | '%') signedOperand }
+// One function for the levels from `least` on.
+Operand ExpressionParser::binary(Level least) {
+  Operand left = firstOperand(least);
+  for (;;) {
+    // No operator can follow a string or a block, so a directive there may have to wait.
+    const Op op = operatorOf(left.mayCount() ? operatorAhead().sign : stream_.rawSign());
+    const Level level = levelOf(op);
+    if (op == Op::none || level < least) return left;
+    const Span sign = stream_.next().span;
+    Operand operands[2] = {std::move(left), binary(above(level))};
+    left = made({.kind = Operation::Kind::binary, .op = op, .wordSpan = sign}, operands);
+  }
 }
 
-// sum := product { ('+' | '-') product } | colour [channels] | channels
-ExprPtr ExpressionParser::sum() {
-  if (isColourWord(stream_.peek())) {
-    ExprPtr plain = colour(true);
+Operand ExpressionParser::firstOperand(Level least) {
+  if (least > Level::sum) return signedOperand();
+  if (isColour(stream_.peek().word())) {
+    Operand plain = colour(true);
     // `filter "box"` is the next setting of a block.
     const bool isSetting = stream_.peekRaw(1).kind == Token::Kind::string;
     return isChannelAhead() && !isSetting ? channels(std::move(plain)) : std::move(plain);
   }
-  if (isChannelAhead() && !context_.symbols.find(stream_.peek().text)) return channels(nullptr);
-  return chain(&ExpressionParser::product, {"+", "-"});
-}
-
-// product := signedOperand { ('*' | '/' | '%') signedOperand }
-ExprPtr ExpressionParser::product() {
-  return chain(&ExpressionParser::signedOperand, {"*", "/", "%"});
-}
-
-ExprPtr ExpressionParser::chain(Level operand, std::initializer_list<const char*> signs) {
-  ExprPtr left = (this->*operand)();
-  for (;;) {
-    // No operator can follow a string or a block, so a directive there may have to wait.
-    const Token ahead = left->mayCount() ? operatorAhead() : stream_.peekRaw();
-    if (ahead.kind != Token::Kind::sign ||
-        std::none_of(signs.begin(), signs.end(), [&](const char* s) { return ahead.is(s); }))
-      break;
-    const Token sign = stream_.next();
-    std::string word = *sign.text;
-    if (word == "&&" || word == "||" || word == "==") word.pop_back();
-    std::vector<ExprPtr> args;
-    args.push_back(std::move(left));
-    args.push_back((this->*operand)());
-    left = node(Expr::Kind::binary, sign.span, std::move(word), std::move(args));
-  }
-  return left;
+  if (isChannelAhead() && !declared(stream_.peek())) return channels({});
+  return signedOperand();
 }
 
 // signedOperand := ('+' | '-' | '!') signedOperand | colour | postfix
-ExprPtr ExpressionParser::signedOperand() {
-  const Token t = stream_.peek();
-  if (isColourWord(t)) return colour(false);
-  if (!t.is("+") && !t.is("-") && !t.is("!")) return postfix();
-  const Nested nested(context_, t.span);
+Operand ExpressionParser::signedOperand() {
+  const Token& ahead = stream_.peek();
+  if (isColour(ahead.word())) return colour(false);
+  const Op op = ahead.is("!") ? Op::invert : operatorOf(ahead.sign);
+  if (op != Op::invert && levelOf(op) != Level::sum) return postfix();
+  const Span span = ahead.span;
+  const Nested nested(context_, span);
   stream_.next();
-  std::vector<ExprPtr> args;
-  args.push_back(signedOperand());
-  return node(Expr::Kind::unary, t.span, *t.text, std::move(args));
+  Operand operand = signedOperand();
+  return made({.kind = Operation::Kind::unary, .op = op, .wordSpan = span}, {&operand, 1});
 }
 
 // postfix := primary { '.' component | '[' expression ']' }
-ExprPtr ExpressionParser::postfix() {
-  ExprPtr e = primary();
+Operand ExpressionParser::postfix() {
+  Operand e = primary();
   for (;;) {
-    const Token ahead = stream_.peekRaw();  // raw: what follows an #include's name must wait
-    std::vector<ExprPtr> args;
-    if (ahead.is(".")) {
-      stream_.nextRaw();
-      const Token member = stream_.nextRaw();
-      if (member.kind != Token::Kind::name ||
-          std::none_of(std::begin(kSwizzles), std::end(kSwizzles),
-                       [&](const char* s) { return member.isWord(s); }))
-        context_.reporter.syntaxError(
-            member.span, "expected a component after '.', found " +
-                             describe(member, context_.sources) +
-                             ": known are x y z t u v red green blue filter transmit gray");
-      args.push_back(std::move(e));
-      e = node(Expr::Kind::member, member.span, *member.text, std::move(args));
-    } else if (ahead.is("[")) {
-      stream_.nextRaw();
-      const With mode(*this, {});
-      args.push_back(std::move(e));
-      do {
-        args.push_back(expression());
-        expect("]", ahead.span, "[");
-      } while (stream_.acceptRaw("["));
-      e = node(Expr::Kind::index, ahead.span, "[", std::move(args));
-    } else {
+    const auto sign = stream_.rawSign();  // raw: what follows an #include's name must wait
+    if (sign == signCode("."))
+      e = member(std::move(e));
+    else if (sign == signCode("["))
+      e = element(std::move(e));
+    else
       return e;
-    }
   }
 }
 
+Operand ExpressionParser::member(Operand of) {
+  stream_.nextRaw();
+  const Token word = stream_.nextRaw();
+  if (!isComponent(word.word()))
+    context_.reporter.syntaxError(
+        word.span, "expected a component after '.', found " + describe(word, context_.sources) +
+                       ": known are x y z t u v red green blue filter transmit gray");
+  return made({.kind = Operation::Kind::member, .word = word.word(), .wordSpan = word.span},
+              {&of, 1});
+}
+
+Operand ExpressionParser::element(Operand of) {
+  const Span open = stream_.nextRaw().span;
+  const With mode(*this, {});
+  Operands operands(*this);
+  operands.add(std::move(of));
+  do {
+    operands.add(expression());
+    expect("]", open, "[");
+  } while (stream_.acceptRaw("["));
+  return made({.kind = Operation::Kind::index, .wordSpan = open}, operands.all());
+}
+
 // primary := number | string | '(' expression ')' | vector | name
-ExprPtr ExpressionParser::primary() {
-  const Token t = stream_.peek();
-  if (t.kind == Token::Kind::number) {
+Operand ExpressionParser::primary() {
+  const Token& ahead = stream_.peek();
+  if (ahead.kind == Token::Kind::number) {
+    Operand number{Numbers(ahead.number), ahead.span};
     stream_.next();
-    return constant(Numbers(t.number), t.span);
+    return number;
   }
-  if (t.kind == Token::Kind::string) {
+  if (ahead.kind == Token::Kind::string) {
+    Operand string{context_.budget.text(ahead.span, *ahead.text), ahead.span};
     stream_.next();
-    return constant(context_.budget.text(t.span, *t.text), t.span);
+    return string;
   }
-  if (t.is("<")) return vector();
-  if (t.kind == Token::Kind::name) return name();
-  if (!t.is("(")) unexpected("a value");
-  const Nested nested(context_, t.span);
+  if (ahead.is("<")) return vector();
+  if (ahead.isName()) return name();
+  if (!ahead.is("(")) unexpected("a value");
+  const Span open = ahead.span;
+  const Nested nested(context_, open);
   stream_.next();
   const With mode(*this, {true, false, -1});
-  ExprPtr e = expression();
-  expect(")", t.span, "(");
-  e->span = context_.sources.join(t.span, context_.sources.join(e->span, stream_.last()));
+  Operand e = expression();
+  expect(")", open, "(");
+  e.span = context_.sources.join(open, context_.sources.join(e.span, stream_.last()));
+  if (e.tree) e.tree->operation.span = e.span;
   return e;
 }
 
 // vector := '<' sum { [','] sum } '>'                2 to 5 components
-ExprPtr ExpressionParser::vector() {
+Operand ExpressionParser::vector() {
   const Span open = stream_.next().span;
   const Nested nested(context_, open);
   const With mode(*this, {});
-  std::vector<ExprPtr> args;
+  Operand components[5];
+  std::size_t count = 0;
   do {
-    args.push_back(expression());
-    if (args.size() > 5)
-      context_.reporter.syntaxError(args.back()->span, "a vector has 2 to 5 components");
+    Operand next = expression();
+    if (count == 5) context_.reporter.syntaxError(next.span, "a vector has 2 to 5 components");
+    components[count++] = std::move(next);
     if (stream_.accept(",")) continue;
   } while (!stream_.peek().is(">") && !stream_.peek().is(">=") && begins(stream_.peek()));
   if (!stream_.acceptVectorEnd()) expect(">", open, "<");
   const Span whole = context_.sources.join(open, stream_.last());
-  if (args.size() < 2)
+  if (count < 2)
     context_.reporter.syntaxError(whole,
                                   "a vector has 2 to 5 components, found one; "
                                   "write a plain number instead");
-  return node(Expr::Kind::vector, whole, "<", std::move(args));
+  return made({.kind = Operation::Kind::vector, .wordSpan = whole}, {components, count});
 }
 
 // colour := ('rgb' | 'rgbf' | 'rgbt' | 'rgbft' | 'srgb' ...) sum
 //         | ('color' | 'colour') (colour | channels | sum)
 // Within a sum the word binds only the next operand.
-ExprPtr ExpressionParser::colour(bool wholeSum) {
+Operand ExpressionParser::colour(bool wholeSum) {
   const Token word = stream_.next();
   const Nested nested(context_, word.span);
-  const bool isBare = word.isWord("color") || word.isWord("colour");
-  if (isBare && isColourWord(stream_.peek())) return colour(wholeSum);
-  if (isBare && channelOf(stream_.peek()) >= 0) return channels(nullptr);
-  std::vector<ExprPtr> args;
-  args.push_back(wholeSum ? sum() : signedOperand());
-  return node(Expr::Kind::colour, word.span, *word.text, std::move(args));
+  const bool isBare = isBareColour(word.word());
+  if (isBare && isColour(stream_.peek().word())) return colour(wholeSum);
+  if (isBare && channelOf(stream_.peek().word()) >= 0) return channels({});
+  Operand operand = wholeSum ? binary(Level::sum) : signedOperand();
+  return made({.kind = Operation::Kind::colour, .word = word.word(), .wordSpan = word.span},
+              {&operand, 1});
 }
 
 bool ExpressionParser::isChannelAhead() {
-  return channelOf(stream_.peek()) >= 0 && begins(stream_.peekRaw(1));
+  return channelOf(stream_.peek().word()) >= 0 && begins(stream_.peekRaw(1));
 }
 
 // channels := { ('red' | 'green' | 'blue' | 'filter' | 'transmit') sum }      the last one counts
-// `base`: a colour whose channels they replace; null: black.
-ExprPtr ExpressionParser::channels(ExprPtr base) {
-  const Token first = stream_.peek();
-  std::vector<ExprPtr> args(6);
-  args[5] = std::move(base);
+// `base`: a colour whose channels they replace; nothing: black.
+Operand ExpressionParser::channels(std::optional<Operand> base) {
+  Operation o{.kind = Operation::Kind::channels, .wordSpan = stream_.peek().span};
+  Operand operands[6];
+  if (base) operands[5] = std::move(*base), o.given = 1 << 5;
   do {
-    const int channel = channelOf(stream_.next());
-    args[std::size_t(channel)] = chain(&ExpressionParser::product, {"+", "-"});
-  } while (channelOf(stream_.peek()) >= 0);
-  return node(Expr::Kind::channels, first.span, *first.text, std::move(args));
+    const int channel = channelOf(stream_.next().word());
+    operands[channel] = binary(Level::sum);
+    o.given |= std::uint8_t(1 << channel);
+  } while (channelOf(stream_.peek().word()) >= 0);
+  return made(o, operands);
 }
 
 // name := parameter | identifier | constant | call | 'defined' '(' identifier ')'
-ExprPtr ExpressionParser::name() {
+Operand ExpressionParser::name() {
   const Token t = stream_.next();
-  if (function_)
-    for (std::size_t i = 0; i < function_->parameters.size(); ++i)
-      if (function_->parameters[i] == t.text) {
-        ExprPtr e = constant({}, t.span);
-        e->kind = Expr::Kind::parameter;
-        e->slot = int(i);
-        return e;
-      }
-  if (const Cell cell = context_.symbols.find(t.text)) {
-    const bool isFunction = std::holds_alternative<FunctionPtr>(cell->value);
-    return isFunction && stream_.peekRaw().is("(") ? call(t, cell->value)
-                                                   : constant(cell->value, t.span);
+  if (function_) {
+    const auto& all = function_->parameters;
+    const auto slot = std::find(all.begin(), all.end(), t.text) - all.begin();
+    if (std::size_t(slot) < all.size())
+      return made({.kind = Operation::Kind::parameter, .slot = int(slot), .wordSpan = t.span}, {});
   }
-  if (t.isWord("defined")) return definedTest(t);
-  if (findBuiltin(*t.text)) return call(t, {});
-  if (Datum d = constantOf(*t.text, context_.version); !isBroken(d))
-    return constant(std::move(d), t.span);
+  if (const Datum* value = declared(t)) {
+    const bool isFunction = std::holds_alternative<FunctionPtr>(*value);
+    return isFunction && stream_.peekRaw().is("(") ? call(t, *value) : Operand{*value, t.span};
+  }
+  if (t.word() == Word::defined) return definedTest(t);
+  if (t.text->builtin) return call(t, {});
+  if (Datum d = constantOf(t.word(), context_.version); !isBroken(d)) return {std::move(d), t.span};
   return unknown(t);
 }
 
 // call := function '(' [ sum { [','] sum } ] ')'
-ExprPtr ExpressionParser::call(const Token& name, const Datum& symbol) {
-  const Builtin* builtin = isBroken(symbol) ? findBuiltin(*name.text) : nullptr;
+// `function`: the declared one; nothing: a built-in.
+Operand ExpressionParser::call(const Token& name, const Datum& function) {
+  const Builtin* builtin = isBroken(function) ? name.text->builtin : nullptr;
   const Nested nested(context_, name.span);
+  Operands operands(*this);
+  if (!builtin) operands.add({function, {}});
   const Span open = stream_.peek().span;
   if (!stream_.accept("(")) unexpected("'(' after the function '" + *name.text + "'");
   if (builtin && !builtin->isPure && function_)
@@ -467,27 +464,26 @@ ExprPtr ExpressionParser::call(const Token& name, const Datum& symbol) {
   const bool takesVectors =
       builtin && std::string_view(builtin->signature).find('v') != std::string_view::npos;
   const With mode(*this, {!takesVectors, false, -1});
-  std::vector<ExprPtr> args;
   while (!stream_.peek().is(")")) {
-    args.push_back(expression());
+    context_.budget.need(name.span, double(operands.size() * sizeof(Operand)));
+    operands.add(expression());
     if (!stream_.accept(",") && !begins(stream_.peek())) break;
   }
   expect(")", open, "(");
-  ExprPtr e = node(builtin ? Expr::Kind::builtin : Expr::Kind::invoke, name.span, *name.text,
-                   std::move(args));
-  if (e->isConstant()) return e;
-  e->span = context_.sources.join(e->span, stream_.last());
-  e->function = builtin;
-  e->value = symbol;
-  return e;
+  const auto kind = builtin ? Operation::Kind::builtin : Operation::Kind::invoke;
+  return made({.kind = kind,
+               .span = context_.sources.join(name.span, stream_.last()),
+               .wordSpan = name.span,
+               .name = name.text},
+              operands.all());
 }
 
-ExprPtr ExpressionParser::definedTest(const Token& word) {
+Operand ExpressionParser::definedTest(const Token& word) {
   const Span open = stream_.peekRaw().span;
   if (!stream_.acceptRaw("(")) unexpected("'(' after 'defined'");
   const bool isKnown = isDefined(stream_.nextRaw());
   if (!stream_.acceptRaw(")")) expect(")", open, "(");
-  return constant(Numbers(isKnown ? 1 : 0), context_.sources.join(word.span, stream_.last()));
+  return {Numbers(isKnown ? 1 : 0), context_.sources.join(word.span, stream_.last())};
 }
 
 // { '[' sum ']' } after a name. An index outside the array names nothing.
@@ -517,7 +513,7 @@ bool ExpressionParser::isDefined(const Token& name) {
 }
 
 // An undeclared name, with the arguments that may follow it.
-ExprPtr ExpressionParser::unknown(const Token& name) {
+Operand ExpressionParser::unknown(const Token& name) {
   const bool isCall = stream_.peekRaw().is("(");
   if (words_.opensBlock(*name.text))
     context_.reporter.syntaxError(name.span, "expected a value, found '" + *name.text + "'");
@@ -529,7 +525,7 @@ ExprPtr ExpressionParser::unknown(const Token& name) {
     if (t.is(")")) --depth;
     if (depth == 0 || t.kind == Token::Kind::end) break;
   }
-  return constant({}, name.span);
+  return {{}, name.span};
 }
 
 }  // namespace vestige::lang

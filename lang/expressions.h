@@ -44,46 +44,56 @@ class ExpressionParser {
   void undeclared(const Token& name, const std::string& role);
 
  private:
+  /// What becomes of the steps that are read.
+  enum class Reading : std::uint8_t {
+    values,  ///< they are evaluated at once
+    trees,   ///< they are kept: the body of a function
+    syntax,  ///< they are dropped: the branch of a choice that is not taken
+  };
   struct Mode {
     bool comparisons = false, endsAtDirective = false;
     std::int32_t via = -1;  ///< the text whose directives end it
   };
-  class With;  ///< another mode during its lifetime
-  class Tree;
+  class With;      ///< another mode during its lifetime
+  class Reads;     ///< another way of reading during its lifetime
+  class Operands;  ///< of a call, on the common stack
 
   const Token& operatorAhead();
-  ExprPtr expression();
-  ExprPtr choice();
-  ExprPtr logic();
-  ExprPtr comparison();
-  ExprPtr sum();
-  ExprPtr product();
-  ExprPtr signedOperand();
-  ExprPtr postfix();
-  ExprPtr primary();
-  ExprPtr name();
-  ExprPtr vector();
-  ExprPtr colour(bool wholeSum);
+  Operand expression();
+  Operand choice();
+  Operand branch(bool isTaken);
+  Operand binary(Level least);
+  Operand firstOperand(Level least);
+  Operand signedOperand();
+  Operand postfix();
+  Operand member(Operand of);
+  Operand element(Operand of);
+  Operand primary();
+  Operand name();
+  Operand vector();
+  Operand colour(bool wholeSum);
   bool isChannelAhead();
-  ExprPtr channels(ExprPtr base);
-  ExprPtr call(const Token& name, const Datum& symbol);
-  ExprPtr definedTest(const Token& word);
-  ExprPtr unknown(const Token& name);
+  Operand channels(std::optional<Operand> base);
+  Operand call(const Token& name, const Datum& function);
+  Operand definedTest(const Token& word);
+  Operand unknown(const Token& name);
 
-  using Level = ExprPtr (ExpressionParser::*)();
-  ExprPtr chain(Level operand, std::initializer_list<const char*> signs);
-  ExprPtr constant(Datum value, const Span& span);
-  ExprPtr node(Expr::Kind kind, const Span& span, std::string word, std::vector<ExprPtr> args);
-  ExprPtr bounded(ExprPtr e);
-  void countNode(const Span& span);
+  /// The result of a step.
+  Operand made(Operation o, std::span<Operand> operands);
+  Operand tree(const Operation& o, std::span<Operand> operands);
+  ExprPtr leaf(Operand&& operand);
+  bool isBuilding() const { return reading_ == Reading::trees; }
+  const Datum* declared(const Token& name) const { return context_.symbols.value(name.text); }
 
   Context& context_;
   TokenStream& stream_;
   const Vocabulary& words_;
   Evaluator evaluator_;
   Mode mode_;
-  std::int64_t nodes_ = 0;              ///< of the trees that exist
+  Reading reading_ = Reading::values;
   const Function* function_ = nullptr;  ///< whose body is being read
+  std::int64_t nodes_ = 0;              ///< of its tree
+  std::vector<Operand> stack_;          ///< the arguments of the calls that are being read
 };
 
 }  // namespace vestige::lang

@@ -25,7 +25,7 @@ class Reader {
         directives_(context_, stream_, parser_, includes_),
         result_(result) {
     stream_.onDirective = [this](const Token& t) { directives_.obey(t); };
-    stream_.onName = [this](const Token& t) { return directives_.expand(t); };
+    stream_.onMacro = [this](const Token& t) { directives_.expand(t); };
     context_.fileExists = [this](const std::string& file) {
       std::vector<std::string> tried;
       const std::string path = includes_.find(file, 0, tried);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/lexer.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -26,12 +27,12 @@ class Lexer {
   Lexer(int file, const Sources& sources, Names& names, Budget& budget)
       : file_(file), text_(sources.text(file).text), names_(names), budget_(budget) {}
 
-  std::vector<Token> run() {
+  std::vector<StoredToken> run() {
     if (text_.compare(0, 3, "\xEF\xBB\xBF") == 0) at_ = 3;  // byte order mark of UTF-8
-    std::vector<Token> tokens;
+    std::vector<StoredToken> tokens;
     do {
-      const Token t = next();
-      budget_.reserveOne(t.span, tokens);
+      const StoredToken t = next();
+      budget_.reserveOne({file_, t.begin, t.end, -1}, tokens);
       tokens.push_back(t);
     } while (tokens.back().kind != Token::Kind::end);
     return tokens;
@@ -43,16 +44,22 @@ class Lexer {
   }
   bool atEnd() const { return at_ >= text_.size(); }
 
-  Token token(Token::Kind kind, std::size_t begin, std::string text) {
-    Token t;
+  StoredToken token(Token::Kind kind, std::size_t begin) const {
+    StoredToken t;
     t.kind = kind;
-    t.span = {file_, std::uint32_t(begin), std::uint32_t(at_), -1};
-    t.text = names_.intern(std::move(text));
-    if (kind == Token::Kind::sign) t.sign = signCode(t.text->c_str());
+    t.begin = std::uint32_t(begin), t.end = std::uint32_t(at_);
     return t;
   }
-  Token bad(std::size_t begin, std::string what) {
-    return token(Token::Kind::bad, begin, std::move(what));
+  StoredToken token(Token::Kind kind, std::size_t begin, std::string_view text) {
+    StoredToken t = token(kind, begin);
+    t.text = names_.intern(text);
+    return t;
+  }
+  StoredToken bad(std::size_t begin, std::string_view what) {
+    return token(Token::Kind::bad, begin, what);
+  }
+  std::string_view since(std::size_t begin) const {
+    return std::string_view(text_).substr(begin, at_ - begin);
   }
 
   /// Comments count as blanks; an unclosed comment becomes a `bad` token.
@@ -85,11 +92,11 @@ class Lexer {
     return false;
   }
 
-  Token next() {
+  StoredToken next() {
     std::size_t begin = 0;
     if (!skipBlanks(begin)) {
-      Token t = bad(begin, "this comment is never closed: '*/' is missing");
-      t.span.end = t.span.begin + 2;
+      StoredToken t = bad(begin, "this comment is never closed: '*/' is missing");
+      t.end = t.begin + 2;
       return t;
     }
     begin = at_;
@@ -102,16 +109,16 @@ class Lexer {
     return sign(begin);
   }
 
-  Token word(std::size_t begin) {
+  StoredToken word(std::size_t begin) {
     while (isWordPart(peek())) ++at_;
     if (static_cast<unsigned char>(peek()) >= 0x80) {
       while (isWordPart(peek()) || static_cast<unsigned char>(peek()) >= 0x80) ++at_;
       return bad(begin, "a name is made of the letters a to z and A to Z, digits and '_'");
     }
-    return token(Token::Kind::name, begin, text_.substr(begin, at_ - begin));
+    return token(Token::Kind::name, begin, since(begin));
   }
 
-  Token number(std::size_t begin) {
+  StoredToken number(std::size_t begin) {
     while (isDigit(peek())) ++at_;
     if (peek() == '.') ++at_;
     while (isDigit(peek())) ++at_;
@@ -122,7 +129,8 @@ class Lexer {
         while (isDigit(peek())) ++at_;
       }
     }
-    Token t = token(Token::Kind::number, begin, text_.substr(begin, at_ - begin));
+    StoredToken t = token(Token::Kind::number, begin);
+    t.number = 0;
     // from_chars does not depend on the locale; it accepts a leading or a trailing point.
     const auto end = text_.data() + at_;
     const auto [stop, error] = std::from_chars(text_.data() + begin, end, t.number);
@@ -137,7 +145,7 @@ class Lexer {
     return digits[0] == '.' || digits[0] == '0';
   }
 
-  Token string(std::size_t begin) {
+  StoredToken string(std::size_t begin) {
     std::string value;
     std::string wrong;
     ++at_;
@@ -150,7 +158,7 @@ class Lexer {
     if (peek() != '"') return bad(begin, "this string is never closed: '\"' is missing");
     ++at_;
     if (!wrong.empty()) return bad(begin, wrong);
-    return token(Token::Kind::string, begin, std::move(value));
+    return token(Token::Kind::string, begin, value);
   }
 
   void escape(std::string& value, std::string& wrong) {
@@ -185,7 +193,7 @@ class Lexer {
     value += utf8(code);
   }
 
-  Token directive(std::size_t begin) {
+  StoredToken directive(std::size_t begin) {
     ++at_;
     while (peek() == ' ' || peek() == '\t' || peek() == '\n' || peek() == '\r') ++at_;
     const std::size_t name = at_;
@@ -194,18 +202,18 @@ class Lexer {
       at_ = begin + 1;
       return bad(begin, "'#' begins a directive such as #declare, but no word follows it");
     }
-    return token(Token::Kind::directive, begin, text_.substr(name, at_ - name));
+    return token(Token::Kind::directive, begin, since(name));
   }
 
-  Token sign(std::size_t begin) {
+  StoredToken sign(std::size_t begin) {
     for (const char* s : kDoubleSigns)
       if (peek() == s[0] && peek(1) == s[1]) {
         at_ += 2;
-        return token(Token::Kind::sign, begin, s);
+        return sign(begin, signCode(s));
       }
     const auto c = static_cast<unsigned char>(text_[at_++]);
     if (c != 0 && std::string_view(kSigns).find(char(c)) != std::string_view::npos)
-      return token(Token::Kind::sign, begin, std::string(1, char(c)));
+      return sign(begin, c);
     while (c >= 0x80 && (static_cast<unsigned char>(peek()) & 0xC0) == 0x80) ++at_;
     const std::string shown = c < 32 || c == 127
                                   ? "control character " + std::to_string(int(c))
@@ -213,11 +221,23 @@ class Lexer {
     return bad(begin, shown + " means nothing here");
   }
 
+  StoredToken sign(std::size_t begin, std::uint16_t code) {
+    StoredToken t = token(Token::Kind::sign, begin);
+    t.sign = code;
+    // Of two characters the second is an '=' or a repetition of the first.
+    const auto second = code < 256 ? 0 : code / 256 == '=' ? 1 : 2;
+    const Name*& name = signs_[std::size_t(code % 256 * 3 + second)];
+    if (!name) name = names_.intern(since(begin));
+    t.text = name;
+    return t;
+  }
+
   int file_;
   const std::string& text_;
   Names& names_;
   Budget& budget_;
   std::size_t at_ = 0;
+  std::array<const Name*, 128 * 3> signs_{};
 };
 
 bool opens(const std::string& word) {
@@ -240,7 +260,7 @@ void pair(TokenList& list, Reporter& reporter) {
   };
   const auto isSwitch = [&](const Open& o) { return *tokens[o.first].text == "switch"; };
   for (std::uint32_t i = 0; i < tokens.size(); ++i) {
-    Token& t = tokens[i];
+    StoredToken& t = tokens[i];
     if (t.kind != Token::Kind::directive) continue;
     t.jump = i;
     if (opens(*t.text)) {
@@ -248,8 +268,9 @@ void pair(TokenList& list, Reporter& reporter) {
     } else if (*t.text == "end" || continues(*t.text)) {
       const bool wantsSwitch = *t.text == "case" || *t.text == "range";
       if (open.empty() || (wantsSwitch && !isSwitch(open.back()))) {
-        reporter.error(t.span, "#" + *t.text + " without " +
-                                   (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
+        reporter.error(list.token(i).span,
+                       "#" + *t.text + " without " +
+                           (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
         continue;
       }
       tokens[open.back().last].jump = i;
@@ -263,7 +284,7 @@ void pair(TokenList& list, Reporter& reporter) {
   for (const Open& o : open) {
     tokens[o.last].jump = std::uint32_t(tokens.size() - 1);
     close(o.first, tokens[o.last].jump);
-    reporter.error(tokens[o.first].span, "#" + *tokens[o.first].text + " has no #end");
+    reporter.error(list.token(o.first).span, "#" + *tokens[o.first].text + " has no #end");
   }
 }
 
@@ -272,6 +293,7 @@ void pair(TokenList& list, Reporter& reporter) {
 TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter,
                    Budget& budget) {
   TokenList list;
+  list.file = file;
   budget.copy({}, sources.text(file).text.size());
   list.tokens = Lexer(file, sources, names, budget).run();
   pair(list, reporter);

@@ -1,39 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text to tokens, once for each text: macros and loops read the same tokens again.
 #pragma once
-#include <memory>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "lang/budget.h"
+#include "lang/names.h"
 #include "lang/report.h"
 #include "lang/source.h"
 
 namespace vestige::lang {
-
-/// Strings kept once, so that equal names are equal pointers.
-class Names {
- public:
-  explicit Names(Total memory) : memory_(std::move(memory)) {}
-  const std::string* intern(std::string text) {
-    const auto [at, isNew] = pool_.insert(std::move(text));
-    if (isNew) *memory_ += std::int64_t(kNode + at->capacity());
-    return &*at;
-  }
-
- private:
-  static constexpr std::size_t kNode = 80;  ///< bytes of an entry without its letters
-  Total memory_;
-  std::unordered_set<std::string> pool_;
-};
-
-/// One or two characters as a number; 0 is not a sign.
-constexpr std::uint16_t signCode(const char* s) {
-  const auto first = static_cast<unsigned char>(s[0]);
-  return std::uint16_t(first + (first ? static_cast<unsigned char>(s[1]) * 256 : 0));
-}
 
 struct Token {
   enum class Kind : std::uint8_t {
@@ -48,22 +25,52 @@ struct Token {
   Kind kind = Kind::end;
   std::uint16_t sign = 0;  ///< of punctuation: signCode() of it, for quick comparison
   Span span;
-  const std::string* text = nullptr;
-  double number = 0;
   /// For a directive that opens or continues a construct: the token index of the next part, #if ->
   /// #elseif -> #else -> #end. For an #end: the index of the directive that it closes.
   std::uint32_t jump = 0;
+  const Name* text = nullptr;  ///< null for a number
+  double number = 0;
 
   bool is(const char* s) const { return sign == signCode(s); }
   bool isWord(const char* word) const { return kind == Kind::name && *text == word; }
+  bool isName() const { return kind == Kind::name; }
+  /// The word of the language that a name is.
+  Word word() const { return kind == Kind::name ? text->word : Word::none; }
 };
+
+/// A token as its list stores it: without the text that all tokens of the list share.
+struct StoredToken {
+  Token::Kind kind = Token::Kind::end;
+  std::uint16_t sign = 0;
+  std::uint32_t begin = 0, end = 0;  ///< byte offsets
+  std::uint32_t jump = 0;
+  union {
+    const Name* text = nullptr;  ///< of all but numbers
+    double number;
+  };
+};
+static_assert(sizeof(StoredToken) == 24);
 
 /// All tokens of one text, the last of kind `end`.
 struct TokenList {
-  std::vector<Token> tokens;
+  int file = -1;
+  std::vector<StoredToken> tokens;
   /// For a directive that opens or continues a construct: the token index of its #end, or of the
   /// end of the text.
   std::unordered_map<std::uint32_t, std::uint32_t> closings = {};
+
+  /// Token i, as read through `via`.
+  Token token(std::uint32_t i, std::int32_t via = -1) const {
+    const StoredToken& s = tokens[i];
+    Token t;
+    t.kind = s.kind, t.sign = s.sign, t.jump = s.jump;
+    t.span = {file, s.begin, s.end, via};
+    if (s.kind == Token::Kind::number)
+      t.number = s.number;
+    else
+      t.text = s.text;
+    return t;
+  }
 };
 
 /// Never fails: a lexical error becomes a `bad` token, an unpaired #end or #if a diagnostic.

@@ -55,11 +55,9 @@ void Directives::macroParameters(Macro& m) {
 constexpr std::int64_t kArgumentBytes = sizeof(Symbol) + 64;
 
 // call := name '(' [ argument { ',' argument } ] ')'
-bool Directives::expand(const Token& name) {
-  const Cell cell = context_.symbols.find(name.text);
-  const auto* found = cell ? std::get_if<MacroPtr>(&cell->value) : nullptr;
-  if (!found) return false;
-  const MacroPtr m = *found;
+// A faulty call expands to nothing.
+void Directives::expand(const Token& name) {
+  const MacroPtr m = std::get<MacroPtr>(*context_.symbols.value(name.text));
   const Nested nested(context_, name.span);
   checkMacroDepth(name);
   if (!stream_.peekRaw().is("("))
@@ -78,7 +76,6 @@ bool Directives::expand(const Token& name) {
   parser_.expressions().expect(")", open, "(");
   const Span call = context_.sources.join(name.span, stream_.last());
   if (takes(*m, cells.size(), call)) readBody(*m, cells, call);
-  return true;  // a faulty call expands to nothing
 }
 
 bool Directives::takes(const Macro& m, std::size_t arguments, const Span& call) {

@@ -82,7 +82,8 @@ Block Parser::block() {
   const bool isShape = words_.isShape(*word.text) && !words_.isKind(*word.text);
   Head start{isShape ? words_.find("shape", *word.text) : nullptr, word.span};
   if (isShape && !start.schema) unknownPlugin("shape", word);
-  return finishBlock(head(isShape ? "shape" : *word.text, start), Braces::needed);
+  return finishBlock(head(isShape ? std::string("shape") : std::string(*word.text), start),
+                     Braces::needed);
 }
 
 Block Parser::objectBlock() {
@@ -251,7 +252,7 @@ bool Parser::isValue(const BlockBuilder& b, const Token& t, bool afterComma) con
   if (b.row(*t.text) && !(afterComma && next)) return false;
   if (isTransformWord(*t.text) || words_.opensBlock(*t.text)) return false;
   const Cell cell = context_.symbols.find(t.text);
-  if (cell && std::holds_alternative<Affine>(cell->value)) return false;
+  if (cell && std::holds_alternative<AffinePtr>(cell->value)) return false;
   const bool isMeant = afterComma && next && !cell && !insteadOf(*t.text);  // misspelt, perhaps
   return (expressions_.begins(t) && !declaredBlock(t)) || isMeant;
 }
@@ -370,7 +371,7 @@ Block Parser::blockOf(const Parameter& row, const Span& nameSpan) {
 // A block inside a block. If it may not stand here but may stand outside, a '}' is missing.
 Parser::Next Parser::nested(BlockBuilder& b, const Token& t) {
   const bool isShape = words_.isShape(*t.text) && !words_.isKind(*t.text);
-  const std::string kind = isShape ? "shape" : *t.text;
+  const std::string kind = isShape ? std::string("shape") : std::string(*t.text);
   const bool isObject = t.isWord("object");
   if (b.mayContain(kind) || (isObject && (b.mayContain("shape") || b.mayContain("union")))) {
     b.add(block());

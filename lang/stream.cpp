@@ -15,32 +15,27 @@ void TokenStream::pop() {
   context_.symbols.pop();
 }
 
-Token TokenStream::read(const Frame& frame, std::uint32_t i) const {
-  Token t = frame.token(i);
-  t.span.via = frame.via;
-  return t;
-}
-
 Token TokenStream::advance() {
   while (frames_.size() > 1 && frame().at >= frame().end) pop();
   Frame& f = frame();
-  if (f.at >= f.end) return read(f, std::uint32_t(f.list->tokens.size() - 1));
-  Token t = read(f, f.at++);
+  if (f.at >= f.end) return f.token(std::uint32_t(f.list->tokens.size() - 1));
+  const Token t = f.token(f.at++);
   context_.step(t.span);
   return t;
 }
 
-const Token& TokenStream::peek() {
+void TokenStream::fetch() {
   while (!hasNext_) {
-    Token t = advance();
+    const Token t = advance();
     if (t.kind == Token::Kind::directive) {
       onDirective(t);
-    } else if (t.kind != Token::Kind::name || !onName(t)) {
+    } else if (t.isName() && context_.symbols.isMacro(t.text)) {
+      onMacro(t);
+    } else {
       next_ = t;
       hasNext_ = true;
     }
   }
-  return next_;
 }
 
 Token TokenStream::take() {
@@ -79,11 +74,18 @@ Token TokenStream::peekRaw(int ahead) const {
   for (std::size_t f = frames_.size(); f-- > 0;) {
     const Frame& frame = frames_[f];
     const auto left = int(frame.end - std::min(frame.at, frame.end));
-    if (ahead < left) return read(frame, frame.at + std::uint32_t(ahead));
+    if (ahead < left) return frame.token(frame.at + std::uint32_t(ahead));
     ahead -= left;
   }
   const Frame& bottom = frames_.front();
-  return read(bottom, std::uint32_t(bottom.list->tokens.size() - 1));
+  return bottom.token(std::uint32_t(bottom.list->tokens.size() - 1));
+}
+
+/// The innermost frame is at its end.
+const StoredToken& TokenStream::storedBeyond() const {
+  for (std::size_t f = frames_.size() - 1; f-- > 0;)
+    if (frames_[f].at < frames_[f].end) return frames_[f].list->tokens[frames_[f].at];
+  return frames_.front().list->tokens.back();
 }
 
 Token TokenStream::nextRaw() {
@@ -92,7 +94,7 @@ Token TokenStream::nextRaw() {
 }
 
 bool TokenStream::acceptRaw(const char* sign) {
-  if (!peekRaw().is(sign)) return false;
+  if (rawSign() != signCode(sign)) return false;
   nextRaw();
   return true;
 }

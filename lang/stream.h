@@ -28,7 +28,7 @@ struct Frame {
   int file = -1;                  ///< index in Sources of a file, else -1
   std::vector<OpenDirective> open = {};
 
-  const Token& token(std::uint32_t i) const { return list->tokens[i]; }
+  Token token(std::uint32_t i) const { return list->token(i, via); }
 };
 
 class TokenStream {
@@ -37,8 +37,8 @@ class TokenStream {
 
   /// Called for each directive that is reached. May read further tokens and may move the frame.
   std::function<void(const Token&)> onDirective;
-  /// Called for each name; returns true if it is a macro, whose body is now being read.
-  std::function<bool(const Token&)> onName;
+  /// Called for each macro's name; makes the stream read the body.
+  std::function<void(const Token&)> onMacro;
 
   void push(Frame frame);
   Frame& frame() { return frames_.back(); }
@@ -48,7 +48,10 @@ class TokenStream {
   void pop();
 
   /// The next token, after all directives and macros before it. `end` at the end, for ever.
-  const Token& peek();
+  const Token& peek() {
+    if (!hasNext_) fetch();
+    return next_;
+  }
   Token next();
   bool accept(const char* sign);
   /// '>' at the end of a vector. Of '>=' the rest stays, so that <1,2,3>=<3,2,1> compares.
@@ -57,6 +60,10 @@ class TokenStream {
   /// The next token without executing directives or expanding macros. May look several tokens
   /// ahead, through the ends of macros.
   Token peekRaw(int ahead = 0) const;
+  /// The sign of peekRaw(); 0: it is not a sign.
+  std::uint16_t rawSign() const { return hasNext_ ? next_.sign : stored().sign; }
+  /// Whether peekRaw() is a directive.
+  bool isRawDirective() const { return !hasNext_ && stored().kind == Token::Kind::directive; }
   Token nextRaw();
   bool acceptRaw(const char* sign);
 
@@ -71,7 +78,13 @@ class TokenStream {
   void drop() { hasNext_ = false; }
 
  private:
-  Token read(const Frame& frame, std::uint32_t i) const;
+  void fetch();
+  /// The next token of the frames.
+  const StoredToken& stored() const {
+    const Frame& f = frames_.back();
+    return f.at < f.end ? f.list->tokens[f.at] : storedBeyond();
+  }
+  const StoredToken& storedBeyond() const;
   /// Takes the next raw token from the frames, leaving those that are at their end.
   Token advance();
   Token take();

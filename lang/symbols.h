@@ -6,8 +6,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "lang/lexer.h"
@@ -18,12 +16,12 @@ namespace vestige::lang {
 /// A macro is a range of tokens; names in its body are looked up in the caller's tables.
 struct Macro {
   struct Parameter {
-    const std::string* name;
+    const Name* name;
     bool isOptional = false;
     Datum initial =
         {};  ///< default of an optional one; monostate: undefined in the body if omitted
   };
-  const std::string* name;
+  const Name* name;
   std::vector<Parameter> parameters;
   const TokenList* list;
   std::uint32_t begin, end;  ///< the body's tokens
@@ -44,49 +42,57 @@ class Symbols {
   explicit Symbols(Total memory) : memory_(std::move(memory)) { push(); }
   void push() { tables_.emplace_back(); }
   void pop() {
-    *memory_ -= kEntry * std::int64_t(tables_.back().size());
-    for (const std::string* name : tables_.back()) stacks_.find(name)->second.pop_back();
+    const std::size_t table = innermost();
+    for (const std::uint32_t id : tables_.back())
+      if (auto& stack = stacks_[id]; !stack.empty() && stack.back().table == table) drop(stack);
+    *memory_ -= std::int64_t(tables_.back().capacity() * sizeof(std::uint32_t));
     tables_.pop_back();
   }
 
   /// The nearest binding, or null.
-  Cell find(const std::string* name) const {
+  Cell find(const Name* name) const {
     const Binding* nearest = nearestOf(name);
     return nearest ? nearest->cell : nullptr;
   }
+  /// The value of the nearest binding, or null.
+  const Datum* value(const Name* name) const {
+    const Binding* nearest = nearestOf(name);
+    return nearest ? &nearest->cell->value : nullptr;
+  }
+  bool isMacro(const Name* name) const {
+    const Datum* d = value(name);
+    return d && std::holds_alternative<MacroPtr>(*d);
+  }
   /// #declare: the nearest binding, else a new global one.
-  Cell declare(const std::string* name) { return in(tableOf(name), name); }
+  Cell declare(const Name* name) { return in(tableOf(name), name); }
   /// A parameter of a macro: a binding to the argument in the innermost table.
-  void bind(const std::string* name, Cell cell) { at(innermost(), name) = std::move(cell); }
+  void bind(const Name* name, Cell cell) { at(innermost(), name) = std::move(cell); }
   /// #local: a binding in the innermost table.
-  Cell local(const std::string* name) { return in(innermost(), name); }
+  Cell local(const Name* name) { return in(innermost(), name); }
 
   std::size_t innermost() const { return tables_.size() - 1; }
   /// The table with the nearest binding, else the global one.
-  std::size_t tableOf(const std::string* name) const {
+  std::size_t tableOf(const Name* name) const {
     const Binding* nearest = nearestOf(name);
     return nearest ? nearest->table : 0;
   }
   /// The binding in one table, made if there is none. A table that has been left: the innermost.
-  Cell in(std::size_t table, const std::string* name) {
+  Cell in(std::size_t table, const Name* name) {
     Cell& cell = at(std::min(table, innermost()), name);
     if (!cell) cell = std::make_shared<Symbol>();
     return cell;
   }
   /// #undef: the nearest binding; false if there is none.
-  bool undefine(const std::string* name) {
-    const Binding* nearest = nearestOf(name);
-    if (!nearest) return false;
-    tables_[nearest->table].erase(name);
-    stacks_.find(name)->second.pop_back();
-    *memory_ -= kEntry;
+  bool undefine(const Name* name) {
+    if (!nearestOf(name)) return false;
+    drop(stacks_[name->id]);
     return true;
   }
   /// Every visible name, for "did you mean".
   std::vector<std::string> names() const {
     std::vector<std::string> all;
-    for (const auto& [name, stack] : stacks_)
-      if (!stack.empty()) all.push_back(*name);
+    for (const auto& stack : stacks_)
+      if (!stack.empty()) all.push_back(*stack.back().name);
     std::sort(all.begin(), all.end());
     return all;
   }
@@ -94,33 +100,44 @@ class Symbols {
  private:
   struct Binding {
     std::size_t table;
+    const Name* name;
     Cell cell;
   };
   /// Bytes of a binding and its cell, without what the value refers to.
   static constexpr std::int64_t kEntry = sizeof(Symbol) + 80;
-  /// Bytes of a name's stack, which stays when its bindings are gone.
-  static constexpr std::int64_t kStack = 96;
 
-  const Binding* nearestOf(const std::string* name) const {
-    const auto found = stacks_.find(name);
-    return found == stacks_.end() || found->second.empty() ? nullptr : &found->second.back();
+  const Binding* nearestOf(const Name* name) const {
+    return name->id >= stacks_.size() || stacks_[name->id].empty() ? nullptr
+                                                                   : &stacks_[name->id].back();
+  }
+  void drop(std::vector<Binding>& stack) {
+    stack.pop_back();
+    *memory_ -= kEntry;
   }
   /// The cell of a binding in one table; null in a new one.
-  Cell& at(std::size_t table, const std::string* name) {
-    const auto [found, isNew] = stacks_.try_emplace(name);
-    if (isNew) *memory_ += kStack;
-    std::vector<Binding>& stack = found->second;
+  Cell& at(std::size_t table, const Name* name) {
+    if (name->id >= stacks_.size()) grow(name->id);
+    std::vector<Binding>& stack = stacks_[name->id];
     auto place = stack.end();
     while (place != stack.begin() && std::prev(place)->table > table) --place;
     if (place != stack.begin() && std::prev(place)->table == table) return std::prev(place)->cell;
     *memory_ += kEntry;
-    tables_[table].insert(name);
-    return stack.insert(place, {table, nullptr})->cell;
+    auto& names = tables_[table];
+    const std::size_t before = names.capacity();
+    names.push_back(name->id);
+    *memory_ += std::int64_t((names.capacity() - before) * sizeof(std::uint32_t));
+    return stack.insert(place, {table, name, nullptr})->cell;
+  }
+  void grow(std::uint32_t id) {
+    const std::size_t before = stacks_.capacity();
+    stacks_.resize(std::size_t(id) + 1);
+    *memory_ += std::int64_t((stacks_.capacity() - before) * sizeof stacks_[0]);
   }
 
   Total memory_;
-  std::unordered_map<const std::string*, std::vector<Binding>> stacks_;
-  std::vector<std::unordered_set<const std::string*>> tables_;  ///< the names bound in each
+  std::vector<std::vector<Binding>> stacks_;  ///< by the name's id, innermost last
+  /// The ids of the names bound in each table. Those undefined since are left in.
+  std::vector<std::vector<std::uint32_t>> tables_;
 };
 
 }  // namespace vestige::lang

@@ -30,7 +30,7 @@ std::string describe(const Datum& datum) {
                  ? "the shape '" + b->plugin + "'"
                  : "the block '" + b->kind + (b->plugin.empty() ? "" : " " + b->plugin) + "'";
     }
-    std::string operator()(const Affine&) const { return "a transform"; }
+    std::string operator()(const AffinePtr&) const { return "a transform"; }
     std::string operator()(const FunctionPtr&) const { return "a function"; }
     std::string operator()(const ArrayPtr&) const { return "an array"; }
     std::string operator()(const MacroPtr&) const { return "a macro"; }

@@ -33,13 +33,14 @@ struct Array;
 
 using TextPtr = std::shared_ptr<const std::string>;
 using BlockPtr = std::shared_ptr<const Block>;
+using AffinePtr = std::shared_ptr<const Affine>;
 using MacroPtr = std::shared_ptr<const Macro>;
 using FunctionPtr = std::shared_ptr<const Function>;
 using ArrayPtr = std::shared_ptr<const Array>;
 
 /// std::monostate: the value of an expression whose error has already been reported; later steps
 /// accept it silently.
-using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, Affine, FunctionPtr,
+using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, AffinePtr, FunctionPtr,
                            ArrayPtr, MacroPtr>;
 
 /// Flat, the last index fastest.

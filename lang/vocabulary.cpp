@@ -16,6 +16,14 @@ bool Vocabulary::opensBlock(const std::string& word) const {
   return word == "object" || isKind(word) || isShape(word);
 }
 
+bool Vocabulary::opensBlock(const Name& name) const {
+  if (name.id >= opens_.size()) opens_.resize(std::size_t(name.id) + 1);
+  Opens& known = opens_[name.id];
+  if (known == Opens::unknown)
+    known = opensBlock(static_cast<const std::string&>(name)) ? Opens::yes : Opens::no;
+  return known == Opens::yes;
+}
+
 bool Vocabulary::standsAlone(const std::string& kind) const {
   return isAnyOf(kind, [](const Schema& s) { return s.standsAlone; });
 }
@@ -138,18 +146,11 @@ const char* insteadOf(const std::string& word) {
   return found == words.end() ? nullptr : found->second;
 }
 
-bool isTransformWord(const std::string& word) {
-  return word == "translate" || word == "rotate" || word == "scale" || word == "matrix" ||
-         word == "transform";
-}
+bool isTransformWord(const std::string& word) { return isTransform(wordOf(word)); }
 
 bool isExpressionWord(const std::string& word) {
-  static const std::set<std::string> words = {
-      "x",      "y",        "z",       "t",      "u",       "v",        "pi",   "tau",   "true",
-      "false",  "yes",      "no",      "on",     "off",     "rgb",      "rgbf", "rgbt",  "rgbft",
-      "srgb",   "srgbf",    "srgbt",   "srgbft", "color",   "colour",   "red",  "green", "blue",
-      "filter", "transmit", "defined", "clock",  "version", "function", "array"};
-  return words.count(word) > 0 || findBuiltin(word) != nullptr;
+  const Word w = wordOf(word);
+  return findBuiltin(word) || (w >= Word::rgb && w <= Word::function);
 }
 
 std::string orList(const std::vector<std::string>& words) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lang/lang.h"
+#include "lang/names.h"
 
 namespace vestige::lang {
 
@@ -22,6 +23,8 @@ class Vocabulary {
   bool isShape(const std::string& word) const { return schemas_.has("shape", word); }
   /// Whether a word begins a block: a kind, a shape or `object`.
   bool opensBlock(const std::string& word) const;
+  /// The same, remembered.
+  bool opensBlock(const Name& name) const;
 
   // For messages; these may be slow.
   /// Whether blocks of a kind may stand outside every other block.
@@ -41,12 +44,15 @@ class Vocabulary {
 
   const SchemaSource& schemas_;
   std::set<std::string> kinds_;
+  enum class Opens : std::uint8_t { unknown, yes, no };
+  mutable std::vector<Opens> opens_;  ///< by the name's id
 };
 
 /// The replacement for a word of POV-Ray that this language lacks; null for other words.
 const char* insteadOf(const std::string& word);
 /// translate, rotate, scale, matrix, transform.
 bool isTransformWord(const std::string& word);
+inline bool isTransformWord(const Name& name) { return isTransform(name.word); }
 /// Words with a fixed meaning in expressions: x, pi, rgb, true, sin, ...
 bool isExpressionWord(const std::string& word);
 /// "a, b or c"

@@ -43,7 +43,8 @@ std::string lost(const std::string& text) {
   const int file = sources.add("a", text);
   const TokenList list = tokenise(file, sources, context.names, context.reporter, context.budget);
   std::uint32_t at = 0;
-  for (const Token& t : list.tokens) {
+  for (std::uint32_t i = 0; i < list.tokens.size(); ++i) {
+    const Token t = list.token(i);
     if (t.span.begin < at || t.span.end < t.span.begin) return "overlapping tokens";
     const bool isEnd = t.kind == Token::Kind::end;
     const std::string gap = text.substr(at, t.span.begin - at);

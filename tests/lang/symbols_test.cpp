@@ -12,7 +12,7 @@ struct Tables {
   Total bytes = std::make_shared<std::atomic<std::int64_t>>(0);
   Names pool{bytes};
   Symbols symbols{bytes};
-  const std::string* a = pool.intern("A");
+  const Name* a = pool.intern("A");
 
   void set(std::size_t table, double x) { symbols.in(table, a)->value = Numbers(x); }
   double seen() const { return numbers(symbols.find(a)->value)->v[0]; }
