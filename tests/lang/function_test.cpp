@@ -30,72 +30,67 @@ std::string debugged(const std::string& before, const std::string& expression) {
 
 }  // namespace
 
+/// As in POV-Ray, & and | bind equally.
 TEST_CASE("a call of a function gives what C++ computes", "[lang]") {
-  const auto bodies = std::vector<std::pair<std::string, double (*)(double, double)>> {
-    {"x*y - x/(y + 10) + x % 3",
-     [](double x, double y) { return x * y - x / (y + 10) + std::fmod(x, 3); }},
-        {"sqrt(x*x + y*y) - 1 + sin(x*3)*0.1",
-         [](double x, double y) { return std::sqrt(x * x + y * y) - 1 + std::sin(x * 3) * 0.1; }},
-        {"x > 0 ? (y > 0 ? 1 : 2) : (y > 0 ? 3 : 4)",
-         [](double x, double y) { return x > 0 ? (y > 0 ? 1.0 : 2.0) : (y > 0 ? 3.0 : 4.0); }},
-    {
-      "-x + !y + (x <= y) + 2*(x != y | x & y)", [](double x, double y) {
-        return -x + (y == 0) + (x <= y) +
-               2 * ((x != y || x != 0) && y != 0)  // & and | bind equally; }},
-        {
-          "max(x, y, 0.5) + pow(2, min(x, y)) + int(x) + floor(y)", [](double x, double y) {
-            return std::max({x, y, 0.5}) + std::pow(2, std::min(x, y)) + std::trunc(x) +
-                   std::floor(y);
-          }
-        }
-      };
-      for (const auto& [body, expected] : bodies)
-        for (const double x : {-2.5, -1.0, 0.0, 0.25, 3.0})
-          for (const double y : {-1.5, 0.0, 2.0}) {
-            const std::string call =
-                "str(F(" + std::to_string(x) + ", " + std::to_string(y) + "), 0, 12)";
-            INFO(body << " at " << x << ", " << y);
-            CHECK(
-                std::abs(std::stod(debugged("#declare F = function(x, y) { " + body + " }", call)) -
-                         expected(x, y)) < 1e-11);
-          }
-    }
+  const auto bodies = std::vector<std::pair<std::string, double (*)(double, double)>>{
+      {"x*y - x/(y + 10) + x % 3",
+       [](double x, double y) { return x * y - x / (y + 10) + std::fmod(x, 3); }},
+      {"sqrt(x*x + y*y) - 1 + sin(x*3)*0.1",
+       [](double x, double y) { return std::sqrt(x * x + y * y) - 1 + std::sin(x * 3) * 0.1; }},
+      {"x > 0 ? (y > 0 ? 1 : 2) : (y > 0 ? 3 : 4)",
+       [](double x, double y) { return x > 0 ? (y > 0 ? 1.0 : 2.0) : (y > 0 ? 3.0 : 4.0); }},
+      {"-x + !y + (x <= y) + 2*(x != y | x & y)",
+       [](double x,
+          double y) { return -x + (y == 0) + (x <= y) + 2 * ((x != y || x != 0) && y != 0); }},
+      {"max(x, y, 0.5) + pow(2, min(x, y)) + int(x) + floor(y)", [](double x, double y) {
+         return std::max({x, y, 0.5}) + std::pow(2, std::min(x, y)) + std::trunc(x) + std::floor(y);
+       }}};
+  for (const auto& [body, expected] : bodies)
+    for (const double x : {-2.5, -1.0, 0.0, 0.25, 3.0})
+      for (const double y : {-1.5, 0.0, 2.0}) {
+        const std::string call =
+            "str(F(" + std::to_string(x) + ", " + std::to_string(y) + "), 0, 12)";
+        INFO(body << " at " << x << ", " << y);
+        CHECK(std::abs(std::stod(debugged("#declare F = function(x, y) { " + body + " }", call)) -
+                       expected(x, y)) < 1e-11);
+      }
+}
 
-    TEST_CASE("a call reports what its expression would", "[lang]") {
-      const auto of = [](const std::string& body, const std::string& x) {
-        return messages("#declare F = function { " + body + " } #declare A = F(" + x + ", 0, 0);");
-      };
-      CHECK(of("1/x", "2") == "");
-      CHECK(of("1/x", "0") == "division by zero\n");
-      CHECK(of("1/(1/x)", "0") == "division by zero\n");  // though the result is a plain 0
-      CHECK(of("x = 0 ? 5 : 1/x", "0") == "");
-      CHECK(of("x = 0 ? 1/x : 5", "0") == "division by zero\n");
-      CHECK(of("sqrt(x) < 1", "-1").find("sqrt()") == 0);
-      CHECK(of("acos(x)", "2").find("acos()") == 0);
-      CHECK(of("ln(x)", "0").find("ln()") == 0);
-      CHECK(of("mod(x, 0)", "1").find("mod()") == 0);
-    }
+TEST_CASE("a call reports what its expression would", "[lang]") {
+  const auto of = [](const std::string& body, const std::string& x) {
+    return messages("#declare F = function { " + body + " } #declare A = F(" + x + ", 0, 0);");
+  };
+  CHECK(of("1/x", "2") == "");
+  CHECK(of("1/x", "0") == "division by zero\n");
+  CHECK(of("1/(1/x)", "0") == "division by zero\n");  // though the result is a plain 0
+  CHECK(of("x = 0 ? 5 : 1/x", "0") == "");
+  CHECK(of("x = 0 ? 1/x : 5", "0") == "division by zero\n");
+  CHECK(of("sqrt(x) < 1", "-1").find("sqrt()") == 0);
+  CHECK(of("acos(x)", "2").find("acos()") == 0);
+  CHECK(of("ln(x)", "0").find("ln()") == 0);
+  CHECK(of("mod(x, 0)", "1").find("mod()") == 0);
+}
 
-    TEST_CASE("functions of other values than numbers are called by their trees", "[lang]") {
-      CHECK(debugged("#declare F = function(n) { concat(\"a\", str(n, 0, 0)) }", "F(7)") == "a7");
-      CHECK(debugged("#declare F = function(n) { <n, 2, 3> }", "str(F(7).x, 0, 0)") == "7");
-      CHECK(debugged("#declare G = function(n) { <n, 2, 3> }"
-                     "#declare F = function(n) { G(n).y + n }",
-                     "str(F(7), 0, 0)") == "9");
-      CHECK(debugged("#declare G = function(n) { n*n }"
-                     "#declare F = function(n) { concat(str(G(n + 1), 0, 0), str(n, 0, 0)) }",
-                     "F(7)") == "647");
-    }
+TEST_CASE("functions of other values than numbers are called by their trees", "[lang]") {
+  CHECK(debugged("#declare F = function(n) { concat(\"a\", str(n, 0, 0)) }", "F(7)") == "a7");
+  CHECK(debugged("#declare F = function(n) { <n, 2, 3> }", "str(F(7).x, 0, 0)") == "7");
+  CHECK(debugged("#declare G = function(n) { <n, 2, 3> }"
+                 "#declare F = function(n) { G(n).y + n }",
+                 "str(F(7), 0, 0)") == "9");
+  CHECK(debugged("#declare G = function(n) { n*n }"
+                 "#declare F = function(n) { concat(str(G(n + 1), 0, 0), str(n, 0, 0)) }",
+                 "F(7)") == "647");
+}
 
-    TEST_CASE("a choice evaluates the branch that is taken, and reads the other", "[lang]") {
-      const std::string array = "#declare A = array[2] { 4, 5 };";
-      CHECK(debugged(array, "str(1 > 2 ? A[7] : A[1], 0, 0)") == "5");
-      CHECK(debugged(array, "str(1 < 2 ? A[1] : 1/0, 0, 0)") == "5");
-      CHECK(debugged(array, "(1 < 2 ? \"yes\" : A[7])") == "yes");
-      CHECK(debugged("", "str(0 ? 1/0 : 1 ? 2 : 1/0, 0, 0)") == "2");
-      CHECK(debugged("#declare S = seed(1); #declare T = seed(1); #declare A = (0 ? rand(S) : 1);",
-                     "str(rand(S) - rand(T), 0, 0)") == "0");
-      CHECK(debugged("", "str(<1, 2> ? 1 : 2, 0, 0)").find("the condition of '?'") == 1);
-    }
+TEST_CASE("a choice evaluates the branch that is taken, and reads the other", "[lang]") {
+  const std::string array = "#declare A = array[2] { 4, 5 };";
+  CHECK(debugged(array, "str(1 > 2 ? A[7] : A[1], 0, 0)") == "5");
+  CHECK(debugged(array, "str(1 < 2 ? A[1] : 1/0, 0, 0)") == "5");
+  CHECK(debugged(array, "(1 < 2 ? \"yes\" : A[7])") == "yes");
+  CHECK(debugged("", "str(0 ? 1/0 : 1 ? 2 : 1/0, 0, 0)") == "2");
+  CHECK(debugged("#declare S = seed(1); #declare T = seed(1); #declare A = (0 ? rand(S) : 1);",
+                 "str(rand(S) - rand(T), 0, 0)") == "0");
+  CHECK(debugged("", "str(<1, 2> ? 1 : 2, 0, 0)").find("the condition of '?'") == 1);
+}
 
-  }  // namespace vestige::lang::test
+}  // namespace vestige::lang::test
