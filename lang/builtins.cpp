@@ -8,17 +8,28 @@
 namespace vestige::lang {
 namespace {
 
+constexpr std::size_t kAnyNumber = SIZE_MAX;
+
+void readSignature(Builtin& b) {
+  b.letters = b.signature;
+  const std::size_t bar = b.letters.find('|');
+  if (bar != std::string::npos) b.letters.erase(bar, 1);
+  const bool repeats = !b.letters.empty() && b.letters.back() == '+';
+  if (repeats) b.letters.pop_back();
+  b.least = std::min(bar, b.letters.size());
+  b.most = repeats ? kAnyNumber : b.letters.size();
+  b.takesVectors = b.letters.find('v') != std::string::npos;
+}
+
 const std::map<std::string, Builtin>& table() {
   static const std::map<std::string, Builtin> all = [] {
     std::map<std::string, Builtin> m;
     for (const auto& part : {numberBuiltins(), vectorBuiltins(), stringBuiltins()})
-      for (const Builtin& b : part) m[b.name] = b;
+      for (const Builtin& b : part) readSignature(m[b.name] = b);
     return m;
   }();
   return all;
 }
-
-constexpr std::size_t kAnyNumber = SIZE_MAX;
 
 std::string plural(std::size_t n) {
   return std::to_string(n) + (n == 1 ? " argument" : " arguments");
@@ -42,7 +53,7 @@ const char* wanted(char letter) {
 }
 
 bool hasRightCount(const Builtin& b, const Call& call) {
-  const std::size_t n = call.args.size(), least = b.least(), most = b.most();
+  const std::size_t n = call.args.size(), least = b.least, most = b.most;
   if (b.fits(n)) return true;
   const std::string count = most == kAnyNumber ? "at least " + plural(least)
                             : least < most     ? std::to_string(least) + " to " + plural(most)
@@ -78,27 +89,6 @@ std::vector<std::string> builtinNames() {
   std::vector<std::string> names;
   for (const auto& [name, b] : table()) names.push_back(name);
   return names;
-}
-
-// The signature holds a letter for each argument, '|' before those that may be left out, and '+'
-// behind the last one if it repeats.
-char Builtin::letter(std::size_t i) const {
-  const std::string_view s = signature;
-  const std::size_t bar = s.find('|');
-  return i < bar ? s[std::min(i, s.size() - (s.back() == '+' ? 2 : 1))] : s[i + 1];
-}
-
-std::size_t Builtin::least() const {
-  const std::string_view s = signature;
-  const std::size_t bar = s.find('|');
-  if (bar != s.npos) return bar;
-  return !s.empty() && s.back() == '+' ? s.size() - 1 : s.size();
-}
-
-std::size_t Builtin::most() const {
-  const std::string_view s = signature;
-  if (!s.empty() && s.back() == '+') return kAnyNumber;
-  return s.find('|') == s.npos ? s.size() : s.size() - 1;
 }
 
 Datum applyBuiltin(const Builtin& builtin, Context& context, const Span& span,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of the language, with POV-Ray's names and results.
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -45,13 +46,15 @@ struct Builtin {
   Datum (*apply)(const Call&);
   bool isPure = true;  ///< the same arguments give the same result
 
-  /// The signature's letter for argument i.
-  char letter(std::size_t i) const;
-  /// Number of arguments that a call must have and may have.
-  std::size_t least() const;
-  std::size_t most() const;
+  // Read from the signature, once.
+  std::string letters = {};  ///< of the arguments; the last one may repeat
+  std::size_t least = 0;     ///< number of arguments that a call must have
+  std::size_t most = 0;      ///< that it may have
+  bool takesVectors = false;
+
+  char letter(std::size_t i) const { return letters[std::min(i, letters.size() - 1)]; }
   /// Whether that many arguments are valid.
-  bool fits(std::size_t count) const { return count >= least() && count <= most(); }
+  bool fits(std::size_t count) const { return count >= least && count <= most; }
 };
 
 /// The built-in of that name, or null. A Name has it already.

@@ -122,9 +122,9 @@ void Directives::declare(const Token& directive) {
   };
   try {
     Datum value = parser_.value(ExpressionParser::Place::declaration).value;
-    const Datum copy = value;
+    const bool isNumbers = numbers(value) != nullptr;
     assign(std::move(value));
-    needSemicolon(copy, *name.text);
+    needSemicolon(isNumbers, *name.text);
   } catch (const SyntaxError&) {
     assign({});  // declared with an error: no second report where it is used
     throw;
@@ -132,8 +132,8 @@ void Directives::declare(const Token& directive) {
 }
 
 /// POV-Ray requires ';' after numbers, vectors and colours only.
-void Directives::needSemicolon(const Datum& value, const std::string& name) {
-  if (stream_.acceptRaw(";") || !std::holds_alternative<Numbers>(value)) return;
+void Directives::needSemicolon(bool isNumbers, const std::string& name) {
+  if (stream_.acceptRaw(";") || !isNumbers) return;
   context_.reporter.offer(stream_.behindLast(), ";");
   context_.reporter.error(stream_.behindLast(), "expected ';' after the value of '" + name + "'");
 }
@@ -161,7 +161,7 @@ void Directives::assignElement(const Token& directive, const Token& name) {
                                                   describe(found, context_.sources));
   }
   Datum value = parser_.value(ExpressionParser::Place::declaration).value;
-  needSemicolon(value, *name.text);
+  needSemicolon(numbers(value) != nullptr, *name.text);
   if (cell && isBroken(cell->value)) return;
   if (!cell || !std::holds_alternative<ArrayPtr>(cell->value)) {
     context_.reporter.error(name.span, "'" + *name.text + "' is not an array: write '#declare " +

@@ -26,7 +26,7 @@ class Directives {
   void declare(const Token& directive);
   void assignElement(const Token& directive, const Token& name);
   ArrayPtr copied(const Span& span, const Array& array);
-  void needSemicolon(const Datum& value, const std::string& name);
+  void needSemicolon(bool isNumbers, const std::string& name);
   void undefine(const Token& directive);
   Token newName(const Token& directive);
   Token plainName(const std::string& before);

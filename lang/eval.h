@@ -13,6 +13,14 @@ class Evaluator {
   Datum apply(const Operation& o, std::span<Operand> operands) {
     return o.kind == Operation::Kind::invoke ? invoke(o, operands) : operations_.apply(o, operands);
   }
+  /// Two plain numbers, the most frequent case: leaves the result in `left`. False: other values.
+  bool combine(const Operation& o, Datum& left, const Datum& right) {
+    auto* x = std::get_if<Numbers>(&left);
+    const Numbers* y = numbers(right);
+    if (!x || !y || x->size != 1 || y->size != 1) return false;
+    x->v[0] = operations_.applied(o, x->v[0], y->v[0]);
+    return true;
+  }
   /// The condition of a choice, or nothing if an error was reported.
   std::optional<bool> condition(const Operand& operand);
 

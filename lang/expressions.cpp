@@ -9,6 +9,8 @@
 namespace vestige::lang {
 namespace {
 
+const Token kNoToken;
+
 /// Deepest tree of a function.
 constexpr int kDeepestFunction = 250;
 /// Bytes of a node and its place among the operands.
@@ -91,7 +93,9 @@ class ExpressionParser::Reads {
 class ExpressionParser::Operands {
  public:
   explicit Operands(ExpressionParser& parser) : stack_(parser.stack_), first_(stack_.size()) {}
-  ~Operands() { stack_.resize(first_); }
+  ~Operands() {
+    while (stack_.size() > first_) stack_.pop_back();
+  }
   Operands(const Operands&) = delete;
   Operands& operator=(const Operands&) = delete;
   void add(Operand operand) { stack_.push_back(std::move(operand)); }
@@ -230,10 +234,9 @@ ExprPtr ExpressionParser::leaf(Operand&& operand) {
 // The next token as an operator. In a declaration the next directive of the same text ends the
 // expression: a missing ';' must not make `#declare B` run before `#declare A` is done.
 const Token& ExpressionParser::operatorAhead() {
-  static const Token nothing;  // no sign
   if (mode_.endsAtDirective && stream_.isRawDirective()) {
     const Token raw = stream_.peekRaw();
-    if (isStatement(raw.text->word) && raw.span.via == mode_.via) return nothing;
+    if (isStatement(raw.text->word) && raw.span.via == mode_.via) return kNoToken;
   }
   return stream_.peek();
 }
@@ -281,9 +284,14 @@ Operand ExpressionParser::binary(Level least) {
     const Op op = operatorOf(left.mayCount() ? operatorAhead().sign : stream_.rawSign());
     const Level level = levelOf(op);
     if (op == Op::none || level < least) return left;
-    const Span sign = stream_.next().span;
-    Operand operands[2] = {std::move(left), binary(above(level))};
-    left = made({.kind = Operation::Kind::binary, .op = op, .wordSpan = sign}, operands);
+    const Operation o{.kind = Operation::Kind::binary, .op = op, .wordSpan = stream_.next().span};
+    Operand right = binary(above(level));
+    if (reading_ == Reading::values && evaluator_.combine(o, left.value, right.value)) {
+      left.span = context_.sources.join(left.span, right.span);
+      continue;
+    }
+    Operand operands[2] = {std::move(left), std::move(right)};
+    left = made(o, operands);
   }
 }
 
@@ -461,8 +469,7 @@ Operand ExpressionParser::call(const Token& name, const Datum& function) {
   if (builtin && !builtin->isPure && function_)
     context_.reporter.error(name.span, *name.text + "() cannot stand inside a function");
   // Where no argument is a vector, '<' can only compare, even if a comma was left out.
-  const bool takesVectors =
-      builtin && std::string_view(builtin->signature).find('v') != std::string_view::npos;
+  const bool takesVectors = builtin && builtin->takesVectors;
   const With mode(*this, {!takesVectors, false, -1});
   while (!stream_.peek().is(")")) {
     context_.budget.need(name.span, double(operands.size() * sizeof(Operand)));

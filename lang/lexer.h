@@ -61,15 +61,17 @@ struct TokenList {
 
   /// Token i, as read through `via`.
   Token token(std::uint32_t i, std::int32_t via = -1) const {
-    const StoredToken& s = tokens[i];
     Token t;
+    get(i, via, t);
+    return t;
+  }
+  void get(std::uint32_t i, std::int32_t via, Token& t) const {
+    const StoredToken& s = tokens[i];
+    const bool isNumber = s.kind == Token::Kind::number;
     t.kind = s.kind, t.sign = s.sign, t.jump = s.jump;
     t.span = {file, s.begin, s.end, via};
-    if (s.kind == Token::Kind::number)
-      t.number = s.number;
-    else
-      t.text = s.text;
-    return t;
+    t.number = isNumber ? s.number : 0;
+    t.text = isNumber ? nullptr : s.text;
   }
 };
 

@@ -138,7 +138,6 @@ Datum Operations::binary(const Operation& o, const Operand& left, const Operand&
   const Numbers* x = numbersOf(left, textOf(o.op));
   const Numbers* y = numbersOf(right, textOf(o.op));
   if (!x || !y) return {};
-  if (x->size == 1 && y->size == 1) return Numbers(applied(o, x->v[0], y->v[0]));
   Numbers r;
   r.size = std::max(x->size, y->size);
   r.isColour = x->isColour || y->isColour;

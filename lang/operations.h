@@ -20,6 +20,9 @@ class Operations {
   /// A single number, or nothing if an error was reported.
   std::optional<double> number(const Operand& operand, const char* role);
 
+  /// A binary operator on two numbers.
+  double applied(const Operation& o, double x, double y);
+
  private:
   Datum unary(const Operation& o, const Operand& operand);
   Datum binary(const Operation& o, const Operand& left, const Operand& right);
@@ -32,8 +35,6 @@ class Operations {
 
   /// The numbers of an operand, or null after an error that names the operator.
   const Numbers* numbersOf(const Operand& operand, const char* who);
-  double applied(const Operation& o, double x, double y);
-
   Context& context_;
 };
 

@@ -63,7 +63,7 @@ int Sources::lineOf(int file, std::uint32_t offset) const {
   return int(std::upper_bound(starts.begin(), starts.end(), offset) - starts.begin()) - 1;
 }
 
-Span Sources::join(Span a, Span b) const {
+Span Sources::joinAcross(Span a, Span b) const {
   if (a.file < 0) return b;
   if (b.file < 0) return a;
   while (a.via != b.via) {

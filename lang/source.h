@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The texts that spans refer to, and the macro calls and includes through which a token came.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -60,9 +61,14 @@ class Sources {
   std::uint32_t offset(int file, int line, int utf16Column) const;
   /// The span from the beginning of one to the end of the other; if they came through different
   /// calls, in the innermost text that contains both.
-  Span join(Span a, Span b) const;
+  Span join(const Span& a, const Span& b) const {
+    if (a.via != b.via || a.file != b.file || a.file < 0) return joinAcross(a, b);
+    return {a.file, std::min(a.begin, b.begin), std::max(a.end, b.end), a.via};
+  }
 
  private:
+  Span joinAcross(Span a, Span b) const;
+
   std::vector<Text> texts_;
   std::vector<Expansion> expansions_;
   struct CallHash {

@@ -15,26 +15,25 @@ void TokenStream::pop() {
   context_.symbols.pop();
 }
 
-Token TokenStream::advance() {
-  while (frames_.size() > 1 && frame().at >= frame().end) pop();
+void TokenStream::advance(Token& t) {
+  while (frame().at >= frame().end && frames_.size() > 1) pop();
   Frame& f = frame();
-  if (f.at >= f.end) return f.token(std::uint32_t(f.list->tokens.size() - 1));
-  const Token t = f.token(f.at++);
+  const bool isAtEnd = f.at >= f.end;
+  f.list->get(isAtEnd ? std::uint32_t(f.list->tokens.size() - 1) : f.at, f.via, t);
+  if (isAtEnd) return;
+  ++f.at;
   context_.step(t.span);
-  return t;
 }
 
 void TokenStream::fetch() {
   while (!hasNext_) {
-    const Token t = advance();
-    if (t.kind == Token::Kind::directive) {
-      onDirective(t);
-    } else if (t.isName() && context_.symbols.isMacro(t.text)) {
-      onMacro(t);
-    } else {
-      next_ = t;
+    advance(next_);
+    if (next_.kind == Token::Kind::directive)
+      onDirective(Token(next_));
+    else if (next_.isName() && context_.symbols.isMacro(next_.text))
+      onMacro(Token(next_));
+    else
       hasNext_ = true;
-    }
   }
 }
 
@@ -65,7 +64,7 @@ bool TokenStream::acceptVectorEnd() {
   last_.end = ++next_.span.begin;
   next_.text = context_.names.intern("=");
   next_.sign = signCode("=");
-  if (peekRaw(1).is("=")) advance();  // '>==' is '>' and '=='
+  if (Token rest; peekRaw(1).is("=")) advance(rest);  // '>==' is '>' and '=='
   return true;
 }
 
@@ -89,7 +88,7 @@ const StoredToken& TokenStream::storedBeyond() const {
 }
 
 Token TokenStream::nextRaw() {
-  if (!hasNext_) next_ = advance();
+  if (!hasNext_) advance(next_);
   return take();
 }
 

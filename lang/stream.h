@@ -86,7 +86,7 @@ class TokenStream {
   }
   const StoredToken& storedBeyond() const;
   /// Takes the next raw token from the frames, leaving those that are at their end.
-  Token advance();
+  void advance(Token& t);
   Token take();
 
   Context& context_;
