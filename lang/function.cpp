@@ -64,6 +64,11 @@ class Compiler {
       fail(use_ ? *use_ : Span(), "a function that transforms a vector gives no number");
       return nullptr;
     }
+    if (f.parameters.size() > std::size_t(Program::kStack)) {
+      fail(f.body->operation.span, "a function has at most " + std::to_string(Program::kStack) +
+                                       " parameters, found " + std::to_string(f.parameters.size()));
+      return nullptr;
+    }
     auto made = std::make_shared<Program>();
     made->arity_ = int(f.parameters.size());
     ++level_;

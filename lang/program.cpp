@@ -6,6 +6,7 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "lang/program_steps.h"
 #include "lang/value.h"
 
 namespace vestige::lang {
@@ -30,8 +31,9 @@ double unit(double x, bool& doubt) {
   return std::abs(x) > 1 ? doubtful(std::clamp(x, -1.0, 1.0), doubt) : x;
 }
 
-/// A step of `n` numbers, as the language computes it elsewhere.
-double apply(Code code, const double* a, int n, bool& doubt) {
+}  // namespace
+
+double applyStep(Code code, const double* a, int n, bool& doubt) noexcept {
   switch (code) {
     case Code::choose:
       return isTrue(a[0]) ? a[1] : a[2];
@@ -147,8 +149,6 @@ double apply(Code code, const double* a, int n, bool& doubt) {
   return NAN;
 }
 
-}  // namespace
-
 Code Program::codeOf(std::string_view builtin) {
   static const std::unordered_map<std::string_view, Code> all = {{"abs", Code::abs},
                                                                  {"acos", Code::acos},
@@ -222,7 +222,7 @@ double Program::run(const double* args, bool& doubt) const noexcept {
         break;
       default:
         top -= s->count;
-        *top = apply(s->code, top, s->count, doubt);
+        *top = applyStep(s->code, top, s->count, doubt);
         ++top;
     }
   }

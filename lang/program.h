@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A function of numbers as a flat list of steps on a stack: no tree, no names, no types.
+// A function of numbers as a flat list of steps on a stack: no tree, no names, no types. It runs on
+// plain numbers (program.cpp), on eight at once (lanes.cpp), on intervals (intervals.cpp) and on
+// numbers with their derivatives (derivatives.cpp).
 #pragma once
 #include <memory>
 #include <string_view>
@@ -87,6 +89,11 @@ class Program final : public vestige::Function {
   /// The value. `doubt` is set where the language has a warning or an error, as for 1/0: the tree
   /// must be evaluated to report it.
   double run(const double* args, bool& doubt) const noexcept;
+
+  void evalLanes(const double* args, double* values) const noexcept override;
+  Interval bounds(std::span<const Interval> args) const noexcept override;
+  double gradient(std::span<const double> args,
+                  std::span<double> derivatives) const noexcept override;
 
   /// Makes the fingerprint of what has been added.
   void finish();
