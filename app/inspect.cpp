@@ -18,7 +18,7 @@ struct InspectRequest {
   SceneInput input;
   BuildOptions build;
   RenderOptions render;
-  int x = 0, y = 0, width = 0, height = 0;
+  int x = 0, y = 0;
   std::uint32_t sample = 0;
   bool json = false;
   std::string svg;  ///< file for a drawing; "": none
@@ -42,7 +42,7 @@ int runInspect(const InspectRequest& r) {
   const LoadedScene loaded = loadScene(r.input, registry, Stage::built, r.build);
   printDiagnostics(loaded.text);
   if (!loaded.scene) return kSceneWrong;
-  const FilmShape film = filmShape(*loaded.scene, r.width, r.height, nullptr);
+  const FilmShape film = filmShape(*loaded.scene, r.input.width, r.input.height, nullptr);
   if (r.x >= film.width || r.y >= film.height)
     throw Failure(kCommandLineWrong,
                   fmt::format("pixel {} {} lies outside of the picture, which is {} x {}", r.x, r.y,
@@ -86,8 +86,8 @@ void addInspect(CLI::App& program, Action& chosen) {
   number("--sample", 0, r->sample, "which sample of the pixel (0)");
   number("--spp", 1, r->render.samples, "samples a pixel, for the bounds that go by them");
   number("--seed", 0, r->render.seed, "as in render (0)");
-  number("--width", 1, r->width, "pixels");
-  number("--height", 1, r->height, "pixels");
+  number("--width", 1, r->input.width, "pixels");
+  number("--height", 1, r->input.height, "pixels");
   command->add_flag("--json", r->json, "for programs");
   command->add_option("--svg", r->svg, "draw the path and its footprints into FILE")
       ->type_name("FILE");

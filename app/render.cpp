@@ -213,7 +213,7 @@ int runRender(const RenderRequest& r) {
     return kSceneWrong;
   }
 
-  Film film = makeFilm(*loaded.scene, r.width, r.height, r.cropGiven ? r.crop : nullptr,
+  Film film = makeFilm(*loaded.scene, r.input.width, r.input.height, r.cropGiven ? r.crop : nullptr,
                        namedAovs(r.aovs, loaded.scene->integrator().aovs()));
   std::optional<CheckpointFile> checkpoint;
   if (!r.checkpoint.empty()) {

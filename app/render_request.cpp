@@ -96,10 +96,10 @@ void addPicture(CLI::App& command, RenderRequest& r) {
       ->type_name("FILE")
       ->group(group);
   addInteger(
-      command, "--width", 1, kMaxSide, [&](auto n) { r.width = int(n); }, "pixels")
+      command, "--width", 1, kMaxSide, [&](auto n) { r.input.width = int(n); }, "pixels")
       ->group(group);
   addInteger(
-      command, "--height", 1, kMaxSide, [&](auto n) { r.height = int(n); }, "pixels")
+      command, "--height", 1, kMaxSide, [&](auto n) { r.input.height = int(n); }, "pixels")
       ->group(group);
   const auto crop = [&](const std::string& text) {
     if (!parseCrop(text, r.crop))

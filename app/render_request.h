@@ -15,7 +15,6 @@ struct RenderRequest {
   OutputOptions output;
   RenderOptions render;
   BuildOptions build;
-  int width = 0, height = 0;
   bool cropGiven = false;
   double crop[4] = {0, 0, 1, 1};
   std::vector<std::string> aovs;  ///< as written; see namedAovs()

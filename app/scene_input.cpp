@@ -186,6 +186,7 @@ LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage s
   for (const std::string& text : input.definitions) options.definitions.push_back(definition(text));
   options.sandbox = input.sandbox;
   options.limits = input.limits;
+  options.imageWidth = input.width, options.imageHeight = input.height;
   checkSceneFile(input.file);
 
   LoadedScene loaded;

@@ -19,6 +19,7 @@ struct SceneInput {
   std::vector<std::string> pluginPaths;   ///< --plugin-path
   bool sandbox = false;
   bool werror = false;
+  int width = 0, height = 0;  ///< --width, --height: image_width and image_height; 0: the film's
   lang::Limits limits;
 };
 

@@ -32,6 +32,8 @@ struct Operation {
     member,     ///< `word`: x, red, ...; operands: one
     index,      ///< operands: an array, then its indices
     builtin,    ///< `name->builtin`
+    spline,     ///< `word`: none or a kind; operands: a spline, a time
+    series,     ///< `op`: plus, times; operands: from, to, and the body, in which `slot` counts
     invoke,     ///< operands: a function called `name`, then its arguments
   };
   Kind kind = Kind::constant;
@@ -67,8 +69,9 @@ struct Expr {
 /// `function(a, b) { a*b + 1 }`, or `function { transform { T } }` with three parameters.
 struct Function {
   std::vector<const Name*> parameters;
-  ExprPtr body;      ///< null: `transform`
-  Affine transform;  ///< gives a vector
+  ExprPtr body;                ///< null: `transform`
+  Affine transform;            ///< gives a vector
+  SplinePtr spline = nullptr;  ///< the same, of one argument
   Share bytes = {};
   mutable std::shared_ptr<const Program> program = nullptr;  ///< made at the first use
   mutable bool isTree = false;  ///< it has no program: its expression is not one of numbers

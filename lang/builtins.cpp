@@ -24,7 +24,7 @@ void readSignature(Builtin& b) {
 const std::map<std::string, Builtin>& table() {
   static const std::map<std::string, Builtin> all = [] {
     std::map<std::string, Builtin> m;
-    for (const auto& part : {numberBuiltins(), vectorBuiltins(), stringBuiltins()})
+    for (const auto& part : {numberBuiltins(), vectorBuiltins(), stringBuiltins(), timeBuiltins()})
       for (const Builtin& b : part) readSignature(m[b.name] = b);
     return m;
   }();

@@ -69,5 +69,6 @@ Datum applyBuiltin(const Builtin& builtin, Context& context, const Span& span,
 std::vector<Builtin> numberBuiltins();
 std::vector<Builtin> vectorBuiltins();
 std::vector<Builtin> stringBuiltins();
+std::vector<Builtin> timeBuiltins();
 
 }  // namespace vestige::lang

@@ -7,7 +7,7 @@
 
 namespace vestige::lang {
 
-// value := block | 'transform' ... | function | array | expression
+// value := block | 'transform' ... | function | array | spline | expression
 Parser::Declared Parser::value(ExpressionParser::Place place) {
   const Token t = stream_.peek();
   const bool isName = t.kind == Token::Kind::name;
@@ -22,6 +22,10 @@ Parser::Declared Parser::value(ExpressionParser::Place place) {
   }
   if (isName && t.isWord("function")) return function();
   if (isName && t.isWord("array")) return array();
+  if (t.word() == Word::spline) {
+    SplinePtr s = spline();
+    return {std::move(s), context_.sources.join(t.span, stream_.last())};
+  }
   const auto result = expressions_.evaluate(place);
   return {result.value, result.span};
 }
@@ -134,7 +138,8 @@ Affine Parser::transformBlock() {
 }
 
 // ---------------------------------------------------------------- functions and arrays
-// function := 'function' ['(' name { ',' name } ')'] '{' (expression | 'transform' ...) '}'
+// function := 'function' ['(' name { ',' name } ')'] '{' (expression | 'transform' ... | spline)
+// '}'
 Parser::Declared Parser::function() { return functionBehind(stream_.next().span); }
 
 Parser::Declared Parser::functionBehind(const Span& word) {
@@ -157,6 +162,10 @@ Parser::Declared Parser::functionBehind(const Span& word) {
     const Span brace = stream_.next().span;
     stream_.next();
     f->transform = transformBlock();
+    expressions_.expect("}", brace, "{");
+  } else if (stream_.peekRaw(1).word() == Word::spline) {
+    const Span brace = stream_.next().span;
+    f->spline = spline();
     expressions_.expect("}", brace, "{");
   } else {
     expressions_.functionBody(*f);

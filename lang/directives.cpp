@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 
+#include "lang/predefined.h"
 #include "lang/printable.h"
 
 namespace vestige::lang {
@@ -96,7 +97,7 @@ Token Directives::newName(const Token& directive) {
   const bool isTaken = isExpressionWord(*name.text) || isTransformWord(*name.text) ||
                        parser_.words().opensBlock(*name.text);
   // (Parameters of macros may be called like u and v, and then be assigned to: found above.)
-  if (isTaken && word != "clock")
+  if (isTaken && !isSetting(wordOf(word)))
     context_.reporter.syntaxError(name.span, "'" + word +
                                                  "' is a word of the language and cannot "
                                                  "be declared; a name with a capital "

@@ -2,6 +2,7 @@
 #include "lang/eval.h"
 
 #include "lang/function.h"
+#include "lang/spline.h"
 
 namespace vestige::lang {
 namespace {
@@ -30,6 +31,8 @@ Datum Evaluator::evaluate(const Expr& e, Arguments a) {
   Datum result;
   if (o.kind == Operation::Kind::choose) {
     result = choose(e, a);
+  } else if (o.kind == Operation::Kind::series) {
+    result = series(e, a);
   } else {
     std::vector<Operand> operands(e.operands.size());
     for (std::size_t i = 0; i < operands.size(); ++i)
@@ -47,12 +50,35 @@ Datum Evaluator::choose(const Expr& e, Arguments a) {
   return isFirst ? evaluate(*e.operands[*isFirst ? 1 : 2], a) : Datum();
 }
 
+/// Each turn is paid for by the steps of its body.
+Datum Evaluator::series(const Expr& e, Arguments a) {
+  const Operation& o = e.operation;
+  double bounds[2] = {};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto x = operations_.number({evaluate(*e.operands[i], a), e.operands[i]->operation.span},
+                                      "a bound of a sum");
+    if (!x) return {};
+    bounds[i] = *x;
+  }
+  const Expr& body = *e.operands[2];
+  std::vector<double> own(a.begin(), a.end());
+  own.resize(std::size_t(o.slot) + 1);
+  double& counter = own.back();
+  double total = o.op == Op::plus ? 0 : 1;
+  for (counter = bounds[0]; counter <= bounds[1]; ++counter) {
+    const auto x = operations_.number({evaluate(body, own), body.operation.span}, "a sum");
+    if (!x) return {};
+    total = o.op == Op::plus ? total + *x : total * *x;
+  }
+  return Numbers(total);
+}
+
 Datum Evaluator::invoke(const Operation& o, std::span<const Operand> operands) {
   const auto* function = std::get_if<FunctionPtr>(&operands[0].value);
   if (!function) return {};  // already reported
   const Function& f = **function;
   context_.step(o.span);
-  const std::size_t wanted = f.body ? f.parameters.size() : 3;
+  const std::size_t wanted = f.body ? f.parameters.size() : f.spline ? 1 : 3;
   const std::size_t found = operands.size() - 1;
   if (found != wanted) {
     context_.reporter.error(o.span, "the function '" + *o.name + "' takes " +
@@ -78,6 +104,7 @@ Datum Evaluator::invoke(const Operation& o, std::span<const Operand> operands) {
 /// number, and for warnings and errors.
 Datum Evaluator::call(const Operation& o, const Function& f) {
   const std::vector<double>& a = arguments_;
+  if (f.spline) return f.spline->at(a[0], Word::none);
   if (!f.body) {
     Numbers r(0, 0, 0);
     for (std::size_t i = 0; i < 3; ++i) {

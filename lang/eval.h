@@ -32,6 +32,7 @@ class Evaluator {
 
   Datum evaluate(const Expr& e, Arguments a);
   Datum choose(const Expr& e, Arguments a);
+  Datum series(const Expr& e, Arguments a);
   Datum invoke(const Operation& o, std::span<const Operand> operands);
   Datum call(const Operation& o, const Function& f);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lang/builtins.h"
+#include "lang/predefined.h"
 
 namespace vestige::lang {
 namespace {
@@ -48,7 +49,6 @@ Datum constantOf(Word word, double version) {
     case Word::isFalse:
     case Word::no:
     case Word::off:
-    case Word::clock:
       return Numbers(0);
     case Word::version:
       return Numbers(version);
@@ -59,28 +59,19 @@ Datum constantOf(Word word, double version) {
 
 }  // namespace
 
-class ExpressionParser::With {
- public:
-  With(ExpressionParser& parser, Mode mode) : parser_(parser), before_(parser.mode_) {
-    parser.mode_ = mode;
-  }
-  ~With() { parser_.mode_ = before_; }
-  With(const With&) = delete;
-  With& operator=(const With&) = delete;
-
- private:
-  ExpressionParser& parser_;
-  Mode before_;
-};
-
 class ExpressionParser::Reads {
  public:
   Reads(ExpressionParser& parser, Reading reading, const Function* function = nullptr)
       : parser_(parser), reading_(parser.reading_), function_(parser.function_) {
     parser.reading_ = reading;
-    if (reading != Reading::syntax) parser.function_ = function;
+    if (reading == Reading::syntax) return;
+    parser.function_ = function;
+    counters_.swap(parser.counters_);
   }
-  ~Reads() { parser_.reading_ = reading_, parser_.function_ = function_; }
+  ~Reads() {
+    if (parser_.reading_ != Reading::syntax) counters_.swap(parser_.counters_);
+    parser_.reading_ = reading_, parser_.function_ = function_;
+  }
   Reads(const Reads&) = delete;
   Reads& operator=(const Reads&) = delete;
 
@@ -88,6 +79,7 @@ class ExpressionParser::Reads {
   ExpressionParser& parser_;
   Reading reading_;
   const Function* function_;
+  std::vector<const Name*> counters_;
 };
 
 class ExpressionParser::Operands {
@@ -153,6 +145,7 @@ bool ExpressionParser::begins(const Token& t) const {
     return t.is("<") || t.is("(") || t.is("-") || t.is("+") || t.is("!");
   if (!t.isName()) return false;
   return declared(t) || t.text->builtin || isColour(t.word()) || t.word() == Word::defined ||
+         t.word() == Word::sum || t.word() == Word::prod || isSetting(t.word()) ||
          !isBroken(constantOf(t.word(), 0));
 }
 
@@ -320,7 +313,7 @@ Operand ExpressionParser::signedOperand() {
   return made({.kind = Operation::Kind::unary, .op = op, .wordSpan = span}, {&operand, 1});
 }
 
-// postfix := primary { '.' component | '[' expression ']' }
+// postfix := primary { '.' component | '[' expression ']' | '(' call of a spline ')' }
 Operand ExpressionParser::postfix() {
   Operand e = primary();
   for (;;) {
@@ -329,6 +322,8 @@ Operand ExpressionParser::postfix() {
       e = member(std::move(e));
     else if (sign == signCode("["))
       e = element(std::move(e));
+    else if (sign == signCode("(") && isSplineCall(e))
+      e = splineCall(std::move(e));
     else
       return e;
   }
@@ -441,19 +436,21 @@ Operand ExpressionParser::channels(std::optional<Operand> base) {
 // name := parameter | identifier | constant | call | 'defined' '(' identifier ')'
 Operand ExpressionParser::name() {
   const Token t = stream_.next();
-  if (function_) {
-    const auto& all = function_->parameters;
-    const auto slot = std::find(all.begin(), all.end(), t.text) - all.begin();
-    if (std::size_t(slot) < all.size())
-      return made({.kind = Operation::Kind::parameter, .slot = int(slot), .wordSpan = t.span}, {});
-  }
+  if (const auto slot = slotOf(t.text))
+    return made({.kind = Operation::Kind::parameter, .slot = *slot, .wordSpan = t.span}, {});
   if (const Datum* value = declared(t)) {
     const bool isFunction = std::holds_alternative<FunctionPtr>(*value);
     return isFunction && stream_.peekRaw().is("(") ? call(t, *value) : Operand{*value, t.span};
   }
   if (t.word() == Word::defined) return definedTest(t);
+  if (t.word() == Word::sum || t.word() == Word::prod) return series(t);
   if (t.text->builtin) return call(t, {});
   if (Datum d = constantOf(t.word(), context_.version); !isBroken(d)) return {std::move(d), t.span};
+  if (isSetting(t.word())) {
+    if (function_ && t.word() == Word::now)
+      context_.reporter.error(t.span, "now cannot stand inside a function");
+    return {settingOf(context_, t.word()), t.span};
+  }
   return unknown(t);
 }
 

@@ -54,7 +54,20 @@ class ExpressionParser {
     bool comparisons = false, endsAtDirective = false;
     std::int32_t via = -1;  ///< the text whose directives end it
   };
-  class With;      ///< another mode during its lifetime
+  /// Another mode during its lifetime.
+  class With {
+   public:
+    With(ExpressionParser& parser, Mode mode) : parser_(parser), before_(parser.mode_) {
+      parser.mode_ = mode;
+    }
+    ~With() { parser_.mode_ = before_; }
+    With(const With&) = delete;
+    With& operator=(const With&) = delete;
+
+   private:
+    ExpressionParser& parser_;
+    Mode before_;
+  };
   class Reads;     ///< another way of reading during its lifetime
   class Operands;  ///< of a call, on the common stack
 
@@ -68,6 +81,8 @@ class ExpressionParser {
   Operand postfix();
   Operand member(Operand of);
   Operand element(Operand of);
+  bool isSplineCall(const Operand& e);
+  Operand splineCall(Operand of);
   Operand primary();
   Operand name();
   Operand vector();
@@ -75,6 +90,9 @@ class ExpressionParser {
   bool isChannelAhead();
   Operand channels(std::optional<Operand> base);
   Operand call(const Token& name, const Datum& function);
+  Operand series(const Token& word);
+  const Name* counter();
+  std::optional<int> slotOf(const Name* name) const;
   Operand definedTest(const Token& word);
   Operand unknown(const Token& name);
 
@@ -92,8 +110,10 @@ class ExpressionParser {
   Mode mode_;
   Reading reading_ = Reading::values;
   const Function* function_ = nullptr;  ///< whose body is being read
-  std::int64_t nodes_ = 0;              ///< of its tree
-  std::vector<Operand> stack_;          ///< the arguments of the calls that are being read
+  std::vector<const Name*>
+      counters_;            ///< of sum() and prod(), innermost last; slots behind its parameters
+  std::int64_t nodes_ = 0;  ///< of its tree
+  std::vector<Operand> stack_;  ///< the arguments of the calls that are being read
 };
 
 }  // namespace vestige::lang

@@ -61,7 +61,8 @@ class Compiler {
     if (f.program) return f.program;
     if (level_ >= kDeepestCall) return tooDear();
     if (!f.body) {
-      fail(use_ ? *use_ : Span(), "a function that transforms a vector gives no number");
+      fail(use_ ? *use_ : Span(), f.spline ? "a function that follows a spline gives no number"
+                                           : "a function that transforms a vector gives no number");
       return nullptr;
     }
     if (f.parameters.size() > std::size_t(Program::kStack)) {
@@ -103,7 +104,10 @@ class Compiler {
     if (below >= Program::kStack) return fail(o.span, "this function's expression is too long");
     switch (o.kind) {
       case Kind::parameter:
-        push(p, o, {Code::argument, 0, std::uint32_t(o.slot)});
+        if (o.slot < p.arity_)
+          push(p, o, {Code::argument, 0, std::uint32_t(o.slot)});
+        else
+          push(p, o, {Code::counter, 0, std::uint32_t(o.slot - p.arity_)});
         return true;
       case Kind::unary:
       case Kind::binary:
@@ -111,6 +115,8 @@ class Compiler {
         return addCall(p, e, below, {codeOf(o)});
       case Kind::choose:
         return addChoice(p, e, below);
+      case Kind::series:
+        return addSeries(p, e, below);
       case Kind::builtin:
         return addBuiltin(p, e, below);
       case Kind::invoke:
@@ -131,6 +137,47 @@ class Compiler {
     }
     push(p, e.operation, {Code::choose, 3});
     return true;
+  }
+
+  /// from, to and the total stay on the stack while the body is computed again and again.
+  bool addSeries(Program& p, const Expr& e, int below) {
+    const Operation& o = e.operation;
+    const int counter = o.slot - p.arity_;
+    if (counter >= Program::kCounters)
+      return fail(o.span,
+                  "sums are nested more than " + std::to_string(Program::kCounters) + " deep");
+    const auto turns = turnsOf(e);
+    if (!turns && !use_) return false;  // its tree counts every step
+    for (const int bound : {0, 1})
+      if (!add(p, *e.operands[std::size_t(bound)], below + bound)) return false;
+    pushNumber(p, o, o.op == Op::plus ? 0 : 1);
+    const std::size_t turn = p.steps.size();
+    const std::int64_t before = p.cost;
+    push(p, o, {turns ? Code::turn : Code::openTurn, std::uint16_t(counter)});
+    if (!add(p, *e.operands[2], below + 3)) return false;
+    push(p, o, {o.op == Op::plus ? Code::addTurn : Code::multiplyTurn, 0, std::uint32_t(turn)});
+    p.steps[turn].index = std::uint32_t(p.steps.size());
+    const double cost =
+        double(p.cost - before) * std::max(1.0, turns.value_or(Program::kMostTurns));
+    if (!(cost <= double(kDearest)))
+      return fail(o.span, "this takes more than " + std::to_string(kDearest) + " steps");
+    p.cost = before + std::int64_t(cost);
+    return true;
+  }
+
+  /// The number of turns if no argument decides about it.
+  std::optional<double> turnsOf(const Expr& series) {
+    double bounds[2] = {};
+    for (const std::size_t i : {0, 1}) {
+      const Expr& bound = *series.operands[i];
+      if (hasParameter(bound)) return {};
+      const Datum d = bound.operation.kind == Kind::constant ? bound.value
+                                                             : Evaluator(context_).evaluate(bound);
+      const Numbers* n = numbers(d);
+      if (!n) return {};
+      bounds[i] = n->v[0];
+    }
+    return bounds[1] - bounds[0] + 1;
   }
 
   bool addBuiltin(Program& p, const Expr& e, int below) {
@@ -182,10 +229,14 @@ class Compiler {
     if (!n || n->size != 1)
       return fail(e.operation.span,
                   "a function that a block takes is made of numbers, found " + describe(d));
-    context_.budget.reserveOne(e.operation.span, p.constants);
-    p.constants.push_back(n->v[0]);
-    push(p, e.operation, {Code::constant, 0, std::uint32_t(p.constants.size() - 1)});
+    pushNumber(p, e.operation, n->v[0]);
     return true;
+  }
+
+  void pushNumber(Program& p, const Operation& o, double x) {
+    context_.budget.reserveOne(o.span, p.constants);
+    p.constants.push_back(x);
+    push(p, o, {Code::constant, 0, std::uint32_t(p.constants.size() - 1)});
   }
 
   static bool hasParameter(const Expr& e) {

@@ -4,6 +4,7 @@
 
 #include "lang/directives.h"
 #include "lang/hash.h"
+#include "lang/predefined.h"
 
 #include <new>
 
@@ -31,6 +32,7 @@ class Reader {
       const std::string path = includes_.find(file, 0, tried);
       return !path.empty() && includes_.isAllowed(path);
     };
+    predefine(context_, words_, name);
     context_.declaredIn = [this](const std::string& name) { return includes_.declaredIn(name); };
   }
 

@@ -54,6 +54,7 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> definitions;  ///< -D name=expression
   bool sandbox = false;  ///< includes only from below the scene's folder and the include paths
   Limits limits;
+  int imageWidth = 0, imageHeight = 0;  ///< of the picture in place of the film's; 0: not given
   std::function<void(const std::string&)> debug;  ///< receives #debug text; null: stderr
 };
 

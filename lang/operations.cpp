@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lang/builtins.h"
+#include "lang/spline.h"
 
 namespace vestige::lang {
 namespace {
@@ -74,6 +75,8 @@ Datum Operations::apply(const Operation& o, std::span<Operand> operands) {
       return member(o, operands[0]);
     case Operation::Kind::index:
       return index(o, operands);
+    case Operation::Kind::spline:
+      return spline(o, operands);
     case Operation::Kind::builtin:
       return applyBuiltin(*o.name->builtin, context_, o.span, operands);
     default:
@@ -222,6 +225,12 @@ Datum Operations::member(const Operation& o, const Operand& operand) {
     return {};
   }
   return Numbers(isGrey ? grey(*n) : n->v[std::size_t(place)]);
+}
+
+Datum Operations::spline(const Operation& o, std::span<const Operand> operands) {
+  const auto* s = std::get_if<SplinePtr>(&operands[0].value);
+  const auto t = number(operands[1], "a spline");
+  return s && t ? Datum((*s)->at(*t, o.word)) : Datum();
 }
 
 // The element of an array may be an array, which takes the rest of the indices.

@@ -4,6 +4,8 @@
 // Tokens arrive with macros expanded and directives obeyed (stream.h), so neither appears here.
 #include "lang/parser.h"
 
+#include "lang/predefined.h"
+
 namespace vestige::lang {
 
 // scene := { block }
@@ -66,6 +68,7 @@ void Parser::addToScene(SceneDesc& scene, Block block) {
       scene.blocks.erase(before);
     }
   }
+  if (block.kind == "film") noteFilm(context_, block);
   context_.budget.reserveOne(block.span, scene.blocks);
   scene.blocks.push_back(std::move(block));
 }

@@ -84,6 +84,9 @@ class Parser {
   Declared function();
   Declared functionBehind(const Span& word);
   Declared array();
+  SplinePtr spline();
+  const SplinePtr* namedSpline();
+  void splinePoint(Spline& s, const Span& open);
   void elements(Array& array, std::size_t level, std::size_t first);
 
   BlockPtr declaredBlock(const Token& name) const;

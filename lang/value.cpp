@@ -34,6 +34,9 @@ std::string describe(const Datum& datum) {
     std::string operator()(const FunctionPtr&) const { return "a function"; }
     std::string operator()(const ArrayPtr&) const { return "an array"; }
     std::string operator()(const MacroPtr&) const { return "a macro"; }
+    std::string operator()(const SplinePtr&) const { return "a spline"; }
+    std::string operator()(const DataFilePtr&) const { return "an open file"; }
+    std::string operator()(const DictionaryPtr&) const { return "a dictionary"; }
   };
   return std::visit(Visitor{}, datum);
 }

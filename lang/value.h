@@ -30,6 +30,9 @@ struct Numbers {
 struct Macro;     // symbols.h
 struct Function;  // ast.h
 struct Array;
+struct Spline;      // spline.h
+struct DataFile;    // data_file.h
+struct Dictionary;  // dictionary.h
 
 using TextPtr = std::shared_ptr<const std::string>;
 using BlockPtr = std::shared_ptr<const Block>;
@@ -37,11 +40,14 @@ using AffinePtr = std::shared_ptr<const Affine>;
 using MacroPtr = std::shared_ptr<const Macro>;
 using FunctionPtr = std::shared_ptr<const Function>;
 using ArrayPtr = std::shared_ptr<const Array>;
+using SplinePtr = std::shared_ptr<const Spline>;
+using DataFilePtr = std::shared_ptr<DataFile>;
+using DictionaryPtr = std::shared_ptr<const Dictionary>;
 
 /// std::monostate: the value of an expression whose error has already been reported; later steps
 /// accept it silently.
 using Datum = std::variant<std::monostate, Numbers, TextPtr, BlockPtr, AffinePtr, FunctionPtr,
-                           ArrayPtr, MacroPtr>;
+                           ArrayPtr, MacroPtr, SplinePtr, DataFilePtr, DictionaryPtr>;
 
 /// Flat, the last index fastest.
 struct Array {

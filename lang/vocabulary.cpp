@@ -135,7 +135,6 @@ const char* insteadOf(const std::string& word) {
       {"merge", notYet},
       {"clipped_by", notYet},
       {"bounded_by", "bounds are found by themselves: leave it out"},
-      {"spline", notYet},
       {"#default", notYet},
       {"#fopen", notYet},
       {"#read", notYet},

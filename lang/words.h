@@ -41,8 +41,17 @@ enum class Word : std::uint8_t {
   no,
   off,
   clock,
+  clockOn,
+  now,
   version,
   defined,
+  sum,
+  prod,
+  linearSpline,
+  quadraticSpline,
+  cubicSpline,
+  naturalSpline,
+  spline,
   array,
   function,
   translate,
@@ -55,6 +64,10 @@ enum class Word : std::uint8_t {
   undef,
   macro,
   include,
+  fopen,
+  fclose,
+  read,
+  write,
   debug,
   warning,
   error,
@@ -67,6 +80,9 @@ const char* textOf(Word word);
 
 constexpr bool isColour(Word w) { return w >= Word::rgb && w <= Word::colour; }
 constexpr bool isBareColour(Word w) { return w == Word::color || w == Word::colour; }
+/// Constants that depend on the run. They are not `defined()`, and -D may declare them.
+constexpr bool isSetting(Word w) { return w >= Word::clock && w <= Word::now; }
+constexpr bool isSplineKind(Word w) { return w >= Word::linearSpline && w <= Word::naturalSpline; }
 constexpr bool isTransform(Word w) { return w >= Word::translate && w <= Word::transform; }
 /// The place of a channel in a colour; -1: not the name of one.
 constexpr int channelOf(Word w) {

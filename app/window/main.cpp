@@ -24,8 +24,8 @@ int run(int argc, char** argv) {
     addInteger(
         program, name, 1, 16384, [&into](auto n) { into = int(n); }, help);
   };
-  size("--width", r.width, "pixels of the picture (the scene's)");
-  size("--height", r.height, "likewise");
+  size("--width", r.input.width, "pixels of the picture (the scene's)");
+  size("--height", r.input.height, "likewise");
   size("--window-width", r.windowWidth, "of the window (1280)");
   size("--window-height", r.windowHeight, "likewise (800)");
   addInteger(

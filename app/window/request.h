@@ -12,7 +12,6 @@ struct ViewRequest {
   SceneInput input;
   BuildOptions build;
   RenderOptions render;
-  int width = 0, height = 0;  ///< of the picture; 0: the scene's
   int windowWidth = 1280, windowHeight = 800;
   Display display;
   std::string reference;   ///< a picture to compare with

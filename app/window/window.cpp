@@ -71,7 +71,7 @@ Window::Window(const ViewRequest& request) : request_(request) {
   } else {
     watch_.watch({request.input.file});
     wish_.build = request.build, wish_.samples = request.render.samples;
-    wish_.width = request.width, wish_.height = request.height;
+    wish_.width = request.input.width, wish_.height = request.input.height;
     preview_ = std::make_unique<Preview>(request.input, request.render, wish_, glfwPostEmptyEvent);
   }
   if (!request.reference.empty()) openReference(request.reference);

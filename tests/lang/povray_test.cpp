@@ -5,27 +5,10 @@
 // To renew a row, run it through POV-Ray again, not through Vestige.
 #include "support/catch.h"
 
-#include <cmath>
-#include <cstdlib>
-
-#include "tests/lang/povray_rows.h"
-#include "tests/lang/schemas.h"
+#include "tests/lang/oracle.h"
 
 namespace vestige::lang::test {
 namespace {
-
-const char* const kPrelude = R"(
-#macro P(V) #debug concat("@",str(V,0,12),"\n") #end
-#macro Q(V) #debug concat("@",vstr(3,V,",",0,9),"\n") #end
-#macro R(V) #debug concat("@",vstr(5,V,",",0,9),"\n") #end
-#macro S(V) #debug concat("@",V,"\n") #end
-)";
-
-struct Row {
-  const char* text;
-  const char* expected;
-  double tolerance = 0;  ///< of its numbers; 0: every character counts
-};
 
 /// Of POV-Ray's colours, which are in single precision.
 constexpr double kSingle = 3e-7;
@@ -292,26 +275,10 @@ const Row kRows[] = {
     // clang-format on
 };
 
-std::string joined(const std::string& lines) {
-  std::string s;
-  for (const char c : lines) {
-    if (c == '@') continue;
-    s += c == '\n' ? '|' : c;
-  }
-  if (!s.empty() && s.back() == '|') s.pop_back();
-  return s;
-}
-
 }  // namespace
 
 TEST_CASE("directives and expressions give POV-Ray's results", "[lang]") {
-  for (const Row& row : kRows) {
-    const std::string found = joined(debugOf(std::string(kPrelude) + row.text));
-    INFO(row.text);
-    INFO("expected " << row.expected);
-    INFO("found    " << found);
-    CHECK((row.tolerance > 0 ? isNear(found, row.expected, row.tolerance) : found == row.expected));
-  }
+  checkRows(kRows);
 }
 
 }  // namespace vestige::lang::test
