@@ -2,6 +2,8 @@
 #include "lang/function.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "lang/builtins.h"
 #include "lang/eval.h"
@@ -73,7 +75,9 @@ class Compiler {
     auto made = std::make_shared<Program>();
     made->arity_ = int(f.parameters.size());
     ++level_;
+    const std::vector<double> around = std::exchange(counters_, {});
     const bool isWhole = add(*made, *f.body, 0);
+    counters_ = around;
     --level_;
     if (!isWhole) return nullptr;
     if (made->cost > kDearest || made->depth > kDeepestCall) return tooDear();
@@ -107,7 +111,7 @@ class Compiler {
         if (o.slot < p.arity_)
           push(p, o, {Code::argument, 0, std::uint32_t(o.slot)});
         else
-          push(p, o, {Code::counter, 0, std::uint32_t(o.slot - p.arity_)});
+          pushNumber(p, o, counters_[std::size_t(o.slot - p.arity_)]);
         return true;
       case Kind::unary:
       case Kind::binary:
@@ -139,45 +143,41 @@ class Compiler {
     return true;
   }
 
-  /// from, to and the total stay on the stack while the body is computed again and again.
+  /// The body once for each turn, with the counter as a constant.
   bool addSeries(Program& p, const Expr& e, int below) {
     const Operation& o = e.operation;
-    const int counter = o.slot - p.arity_;
-    if (counter >= Program::kCounters)
-      return fail(o.span,
-                  "sums are nested more than " + std::to_string(Program::kCounters) + " deep");
-    const auto turns = turnsOf(e);
-    if (!turns && !use_) return false;  // its tree counts every step
-    for (const int bound : {0, 1})
-      if (!add(p, *e.operands[std::size_t(bound)], below + bound)) return false;
+    double bounds[2] = {};
+    for (const std::size_t i : {0, 1}) {
+      const Expr& bound = *e.operands[i];
+      if (hasParameter(bound, p.arity_))
+        return fail(bound.operation.span,
+                    "a sum or a product in a function that a block takes has bounds that do not "
+                    "depend on its parameters");
+      const auto x = counted(bound, p.arity_);
+      if (!x) return false;
+      bounds[i] = *x;
+    }
     pushNumber(p, o, o.op == Op::plus ? 0 : 1);
-    const std::size_t turn = p.steps.size();
-    const std::int64_t before = p.cost;
-    push(p, o, {turns ? Code::turn : Code::openTurn, std::uint16_t(counter)});
-    if (!add(p, *e.operands[2], below + 3)) return false;
-    push(p, o, {o.op == Op::plus ? Code::addTurn : Code::multiplyTurn, 0, std::uint32_t(turn)});
-    p.steps[turn].index = std::uint32_t(p.steps.size());
-    const double cost =
-        double(p.cost - before) * std::max(1.0, turns.value_or(Program::kMostTurns));
-    if (!(cost <= double(kDearest)))
-      return fail(o.span, "this takes more than " + std::to_string(kDearest) + " steps");
-    p.cost = before + std::int64_t(cost);
+    const std::size_t counter = counters_.size();
+    for (double i = bounds[0]; i <= bounds[1]; ++i) {
+      counters_.resize(counter);
+      counters_.push_back(i);
+      if (!add(p, *e.operands[2], below + 1)) return false;
+      push(p, o, {o.op == Op::plus ? Code::plus : Code::times, 2});
+      if (p.cost > kDearest)
+        return fail(o.span, "this takes more than " + std::to_string(kDearest) + " steps");
+    }
+    counters_.resize(counter);
     return true;
   }
 
-  /// The number of turns if no argument decides about it.
-  std::optional<double> turnsOf(const Expr& series) {
-    double bounds[2] = {};
-    for (const std::size_t i : {0, 1}) {
-      const Expr& bound = *series.operands[i];
-      if (hasParameter(bound)) return {};
-      const Datum d = bound.operation.kind == Kind::constant ? bound.value
-                                                             : Evaluator(context_).evaluate(bound);
-      const Numbers* n = numbers(d);
-      if (!n) return {};
-      bounds[i] = n->v[0];
-    }
-    return bounds[1] - bounds[0] + 1;
+  /// The value of an expression that depends on nothing but counters.
+  std::optional<double> counted(const Expr& e, int arity) {
+    Program p;
+    p.arity_ = arity;
+    bool doubt = false;
+    if (!add(p, e, 0)) return {};
+    return p.run(nullptr, doubt);
   }
 
   bool addBuiltin(Program& p, const Expr& e, int below) {
@@ -239,10 +239,12 @@ class Compiler {
     push(p, o, {Code::constant, 0, std::uint32_t(p.constants.size() - 1)});
   }
 
-  static bool hasParameter(const Expr& e) {
-    if (e.operation.kind == Kind::parameter) return true;
-    return std::any_of(e.operands.begin(), e.operands.end(),
-                       [](const ExprPtr& operand) { return operand && hasParameter(*operand); });
+  /// Whether it depends on one of the first slots; counters come behind the parameters.
+  static bool hasParameter(const Expr& e, int slots = std::numeric_limits<int>::max()) {
+    if (e.operation.kind == Kind::parameter) return e.operation.slot < slots;
+    return std::any_of(e.operands.begin(), e.operands.end(), [slots](const ExprPtr& operand) {
+      return operand && hasParameter(*operand, slots);
+    });
   }
 
   void push(Program& p, const Operation& o, Program::Step step) {
@@ -253,7 +255,8 @@ class Compiler {
 
   Context& context_;
   const Span* use_;
-  int level_ = 0;  ///< of functions within functions
+  int level_ = 0;                 ///< of functions within functions
+  std::vector<double> counters_;  ///< of the sums and products around a step, as they are now
 };
 
 }  // namespace

@@ -143,11 +143,6 @@ double applyStep(Code code, const double* a, int n, bool& doubt) noexcept {
     case Code::inner:
     case Code::skipUnless:
     case Code::skipIf:
-    case Code::counter:
-    case Code::turn:
-    case Code::openTurn:
-    case Code::addTurn:
-    case Code::multiplyTurn:
     case Code::unknown:
       break;
   }
@@ -192,8 +187,7 @@ Code Program::codeOf(std::string_view builtin) {
 }
 
 double Program::run(const double* args, bool& doubt) const noexcept {
-  double stack[kStack], counters[kCounters];
-  int turns[kCounters] = {};
+  double stack[kStack];
   double* top = stack;  // one past the last number
   const Step* const first = steps.data();
   const Step* const last = first + steps.size();
@@ -220,26 +214,6 @@ double Program::run(const double* args, bool& doubt) const noexcept {
           *top++ = 0;
           s = first + s->index - 1;
         }
-        break;
-      case Code::counter:
-        *top++ = counters[s->index];
-        break;
-      case Code::turn:
-      case Code::openTurn:
-        if (top[-3] <= top[-2] && (s->code == Code::turn || turns[s->count]++ < kMostTurns)) {
-          counters[s->count] = top[-3]++;
-        } else {
-          if (top[-3] <= top[-2]) top[-1] = doubtful(NAN, doubt);
-          turns[s->count] = 0;
-          top[-3] = top[-1], top -= 2;
-          s = first + s->index - 1;
-        }
-        break;
-      case Code::addTurn:
-      case Code::multiplyTurn:
-        --top;
-        top[-1] = s->code == Code::addTurn ? top[-1] + *top : top[-1] * *top;
-        s = first + s->index - 1;
         break;
       case Code::inner:
         top -= s->count;

@@ -13,10 +13,7 @@ namespace vestige::lang {
 
 class Program final : public vestige::Function {
  public:
-  static constexpr int kStack = 256;   ///< numbers that one call may need
-  static constexpr int kCounters = 8;  ///< of loops in loops
-  /// Turns of a loop whose bounds depend on the arguments; one with more has no number.
-  static constexpr int kMostTurns = 1000;
+  static constexpr int kStack = 256;  ///< numbers that one call may need
 
   enum class Code : std::uint8_t {
     argument,    ///< pushes argument `index`
@@ -25,12 +22,6 @@ class Program final : public vestige::Function {
     skipUnless,  ///< if the top is false: pushes 0 and goes on at step `index`
     skipIf,      ///< if the number below the top is true: the same
     choose,      ///< ?: of three numbers
-    counter,     ///< pushes counter `index`
-    turn,        ///< of three numbers (next, last, total): counter `count` is the next, or the
-                 ///< numbers become the total and the loop goes on at step `index`
-    openTurn,    ///< the same, at most kMostTurns times
-    addTurn,     ///< adds the top to the total, and goes back to the `turn` at `index`
-    multiplyTurn,
     plus,
     minus,
     negate,

@@ -277,8 +277,6 @@ const Row kRows[] = {
 
 }  // namespace
 
-TEST_CASE("directives and expressions give POV-Ray's results", "[lang]") {
-  checkRows(kRows);
-}
+TEST_CASE("directives and expressions give POV-Ray's results", "[lang]") { checkRows(kRows); }
 
 }  // namespace vestige::lang::test
