@@ -205,7 +205,9 @@ int runRender(const RenderRequest& r) {
   std::set<std::string> files;
   BuildOptions build = r.build;
   build.files = &files;
-  const LoadedScene loaded = loadScene(r.input, registry, Stage::built, build);
+  SceneInput input = r.input;
+  input.writes = true;
+  const LoadedScene loaded = loadScene(input, registry, Stage::built, build);
   printDiagnostics(loaded.text);
   if (!loaded.scene) return kSceneWrong;
   if (!isAccepted(loaded.text, r.input.werror)) {

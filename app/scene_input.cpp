@@ -153,6 +153,11 @@ void addSceneOptions(CLI::App& command, SceneInput& input) {
   addPluginPath(command, input.pluginPaths);
   command.add_flag("--sandbox", input.sandbox,
                    "refuse includes from outside the scene's folder and the include folders");
+  command
+      .add_option("--write-folder", input.writeFolder,
+                  "let #write make files below this folder; only `render` makes them")
+      ->take_last()
+      ->type_name("DIR");
   command.add_flag("--werror", input.werror, "treat warnings as errors");
 }
 
@@ -185,6 +190,7 @@ LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage s
   options.includePaths = includeFolders(input.includePaths);
   for (const std::string& text : input.definitions) options.definitions.push_back(definition(text));
   options.sandbox = input.sandbox;
+  options.writeFolder = input.writeFolder, options.writes = input.writes;
   options.limits = input.limits;
   options.imageWidth = input.width, options.imageHeight = input.height;
   checkSceneFile(input.file);

@@ -18,6 +18,8 @@ struct SceneInput {
   std::vector<std::string> includePaths;  ///< -I
   std::vector<std::string> pluginPaths;   ///< --plugin-path
   bool sandbox = false;
+  std::string writeFolder;  ///< --write-folder
+  bool writes = false;      ///< whether the scene may change files there
   bool werror = false;
   int width = 0, height = 0;  ///< --width, --height: image_width and image_height; 0: the film's
   lang::Limits limits;

@@ -7,7 +7,7 @@
 
 namespace vestige::lang {
 
-// value := block | 'transform' ... | function | array | spline | expression
+// value := block | 'transform' ... | function | array | dictionary | spline | expression
 Parser::Declared Parser::value(ExpressionParser::Place place) {
   const Token t = stream_.peek();
   const bool isName = t.kind == Token::Kind::name;
@@ -22,6 +22,7 @@ Parser::Declared Parser::value(ExpressionParser::Place place) {
   }
   if (isName && t.isWord("function")) return function();
   if (isName && t.isWord("array")) return array();
+  if (isName && t.isWord("dictionary") && !context_.symbols.value(t.text)) return dictionary();
   if (t.word() == Word::spline) {
     SplinePtr s = spline();
     return {std::move(s), context_.sources.join(t.span, stream_.last())};
@@ -173,11 +174,17 @@ Parser::Declared Parser::functionBehind(const Span& word) {
   return {FunctionPtr(std::move(f)), context_.sources.join(word, stream_.last())};
 }
 
-// array := 'array' { '[' sum ']' } [ elements ]
+/// POV-Ray 3.8 has a word for arrays of several kinds of values; here every array may be one.
+void Parser::acceptMixed() {
+  if (stream_.peekRaw().isWord("mixed")) stream_.nextRaw();
+}
+
+// array := 'array' ['mixed'] { '[' sum ']' } ['mixed'] [ elements ]
 Parser::Declared Parser::array() {
   const Token word = stream_.next();
   auto a = std::make_shared<Array>();
   std::size_t total = 1;
+  acceptMixed();
   while (stream_.peekRaw().is("[")) {
     const Span open = stream_.next().span;
     const auto size = expressions_.evaluate(ExpressionParser::Place::setting);
@@ -197,6 +204,7 @@ Parser::Declared Parser::array() {
     total = std::size_t(wanted);
     expressions_.expect("]", open, "[");
   }
+  acceptMixed();
   const bool isOpenEnded = a->sizes.empty();
   a->share = Share(context_.elements, isOpenEnded ? 0 : std::int64_t(total));
   context_.checkElements(word.span);

@@ -23,6 +23,8 @@ Directives::Handler Directives::handlerOf(const std::string& word) {
       {"include", &Directives::include}, {"debug", &Directives::message},
       {"render", &Directives::message},  {"statistics", &Directives::message},
       {"warning", &Directives::message}, {"error", &Directives::message},
+      {"fopen", &Directives::openFile},  {"fclose", &Directives::closeFile},
+      {"read", &Directives::readFile},   {"write", &Directives::writeFile},
       {"version", &Directives::version}};
   const auto found = all.find(word);
   return found == all.end() ? nullptr : found->second;
@@ -87,9 +89,10 @@ Token Directives::plainName(const std::string& before) {
       name.span, "expected a name after " + before + ", found " + describe(name, context_.sources));
 }
 
-/// A name that may be declared.
-Token Directives::newName(const Token& directive) {
-  const Token name = plainName("#" + *directive.text);
+/// A name that may be declared. `scope`: the table if it is given; null: may not be given.
+Token Directives::newName(const Token& directive, std::optional<std::size_t>* scope) {
+  Token name = plainName("#" + *directive.text);
+  if (scope) *scope = parser_.expressions().scope(name);
   const std::string& word = *name.text;
   if (context_.symbols.find(name.text)) return name;
   if (const char* instead = insteadOf(word))
@@ -107,7 +110,10 @@ Token Directives::newName(const Token& directive) {
 
 // ('#declare' | '#local') name { '[' sum ']' } '=' value [';']
 void Directives::declare(const Token& directive) {
-  const Token name = newName(directive);
+  if (stream_.peekRaw().is("(")) return declareTuple(directive);
+  std::optional<std::size_t> scope;
+  const Token name = newName(directive, &scope);
+  if (isDictionary(name)) return assignEntry(directive, name);
   if (stream_.peekRaw().is("[")) return assignElement(directive, name);
   if (!stream_.acceptRaw("=")) {
     const Token found = stream_.peekRaw();
@@ -116,8 +122,9 @@ void Directives::declare(const Token& directive) {
                                                   describe(found, context_.sources));
   }
   // Chosen before the value is read: a macro that the value ends with may have locals of this name.
-  const std::size_t table = *directive.text == "local" ? context_.symbols.innermost()
-                                                       : context_.symbols.tableOf(name.text);
+  const std::size_t table = scope                        ? *scope
+                            : *directive.text == "local" ? context_.symbols.innermost()
+                                                         : context_.symbols.tableOf(name.text);
   const auto assign = [&](Datum value) {
     *context_.symbols.in(table, name.text) = {std::move(value), name.span};
   };
@@ -201,11 +208,16 @@ ArrayPtr Directives::copied(const Span& span, const Array& array) {
 
 // '#undef' name
 void Directives::undefine(const Token& directive) {
-  const Token name = plainName("#" + *directive.text);
-  if (!context_.symbols.undefine(name.text))
+  Token name = plainName("#" + *directive.text);
+  const auto scope = parser_.expressions().scope(name);
+  if (!scope && (stream_.peekRaw().is("[") || stream_.peekRaw().is("."))) {
+    forget(name);
+  } else if (!(scope ? context_.symbols.undefineIn(*scope, name.text)
+                     : context_.symbols.undefine(name.text))) {
     context_.reporter.warning(
         name.span, "'" + *name.text + "' has no value to forget" +
                        context_.suggest(name.span, *name.text, context_.symbols.names()));
+  }
   stream_.acceptRaw(";");
 }
 
@@ -235,11 +247,9 @@ void Directives::include(const Token& directive) {
   context_.step(span, kFileSteps);
   std::vector<std::string> tried;
   const std::string path = includes_.find(*name, directive.span.file, tried);
-  if (path.empty()) return missingInclude(*name, span, tried);
+  if (path.empty()) return includes_.missing("no file '" + *name + "' to include", span, tried);
   if (!includes_.isAllowed(path)) {
-    context_.reporter.error(span, "'" + path +
-                                      "' lies outside the scene's folder and the include "
-                                      "paths, which --sandbox forbids");
+    context_.reporter.error(span, Includes::outside(path));
     return;
   }
   std::string why;
@@ -253,14 +263,6 @@ void Directives::include(const Token& directive) {
       {Frame::Kind::file, file->tokens, 0, std::uint32_t(file->tokens->tokens.size() - 1),
        context_.sources.expand(Expansion::Kind::include, context_.names.intern(path), span),
        file->file});
-}
-
-void Directives::missingInclude(const std::string& name, const Span& span,
-                                const std::vector<std::string>& tried) {
-  Diagnostic& d = context_.reporter.error(span, "no file '" + name + "' to include");
-  std::string places;
-  for (const std::string& t : tried) places += (places.empty() ? "" : ", ") + t;
-  d.notes.push_back({{}, "looked for " + places + "; -I adds a folder"});
 }
 
 bool Directives::refuseInclude(const std::string& path, int file, const Span& span) {

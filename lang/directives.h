@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Directives (words after '#') and macro calls.
 #pragma once
-#include "lang/include.h"
+#include "lang/data_file.h"
 #include "lang/parser.h"
 
 namespace vestige::lang {
 
 class Directives {
  public:
-  Directives(Context& context, TokenStream& stream, Parser& parser, Includes& includes)
-      : context_(context), stream_(stream), parser_(parser), includes_(includes) {}
+  Directives(Context& context, TokenStream& stream, Parser& parser, Includes& includes,
+             DataFiles& dataFiles)
+      : context_(context),
+        stream_(stream),
+        parser_(parser),
+        includes_(includes),
+        dataFiles_(dataFiles) {}
 
   /// Executes the directive that the stream has just read. Recovers from an error in it.
   void obey(const Token& directive);
@@ -24,11 +29,16 @@ class Directives {
 
   // Names.
   void declare(const Token& directive);
+  void declareTuple(const Token& directive);
+  bool isDictionary(const Token& name);
+  void assignEntry(const Token& directive, const Token& name);
+  Datum* placeOf(Datum& whole, const std::vector<Parser::Selector>& path, bool makes);
+  void forget(const Token& name);
   void assignElement(const Token& directive, const Token& name);
   ArrayPtr copied(const Span& span, const Array& array);
   void needSemicolon(bool isNumbers, const std::string& name);
   void undefine(const Token& directive);
-  Token newName(const Token& directive);
+  Token newName(const Token& directive, std::optional<std::size_t>* scope = nullptr);
   Token plainName(const std::string& before);
 
   // Choices and loops, by index in the frame's list.
@@ -59,12 +69,22 @@ class Directives {
   void readBody(const Macro& macro, const std::vector<Cell>& arguments, const Span& call);
   void checkMacroDepth(const Token& name);
   void include(const Token& directive);
-  void missingInclude(const std::string& name, const Span& span,
-                      const std::vector<std::string>& tried);
   bool refuseInclude(const std::string& path, int file, const Span& span);
   void message(const Token& directive);
   void version(const Token& directive);
   std::optional<std::string> text(const Token& directive, Span& span);
+
+  // Files of data.
+  void openFile(const Token& directive);
+  void closeFile(const Token& directive);
+  void writeFile(const Token& directive);
+  void readFile(const Token& directive);
+  DataFilePtr openedFile(const Token& directive, Token& name);
+  std::optional<std::string> written(const Datum& value, const Span& span);
+  bool readInto(const Token& directive, DataFile* file);
+  bool nextDatum(DataFile& file, Datum& value);
+  Datum datum(DataFile& file);
+  double dataNumber(DataFile& file);
 
   void skipStatement(const Token& directive, int level);
 
@@ -72,6 +92,7 @@ class Directives {
   TokenStream& stream_;
   Parser& parser_;
   Includes& includes_;
+  DataFiles& dataFiles_;
   std::vector<Handler> handlers_;  ///< by the word's id
   std::int64_t loops_ = 0;
 };

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "lang/builtins.h"
+#include "lang/data_file.h"
+#include "lang/dictionary.h"
 #include "lang/predefined.h"
 
 namespace vestige::lang {
@@ -145,8 +147,8 @@ bool ExpressionParser::begins(const Token& t) const {
     return t.is("<") || t.is("(") || t.is("-") || t.is("+") || t.is("!");
   if (!t.isName()) return false;
   return declared(t) || t.text->builtin || isColour(t.word()) || t.word() == Word::defined ||
-         t.word() == Word::sum || t.word() == Word::prod || isSetting(t.word()) ||
-         !isBroken(constantOf(t.word(), 0));
+         t.word() == Word::sum || t.word() == Word::prod || t.word() == Word::local ||
+         t.isWord("global") || isSetting(t.word()) || !isBroken(constantOf(t.word(), 0));
 }
 
 void ExpressionParser::expect(const char* sign, const Span& open, const char* opener) {
@@ -332,6 +334,11 @@ Operand ExpressionParser::postfix() {
 Operand ExpressionParser::member(Operand of) {
   stream_.nextRaw();
   const Token word = stream_.nextRaw();
+  const bool isEntry = std::holds_alternative<DictionaryPtr>(of.value);
+  if (word.isName() && (isEntry || reading_ == Reading::syntax)) {
+    Operand operands[2] = {std::move(of), {textDatum(*word.text), word.span}};
+    return made({.kind = Operation::Kind::index, .wordSpan = word.span}, operands);
+  }
   if (!isComponent(word.word()))
     context_.reporter.syntaxError(
         word.span, "expected a component after '.', found " + describe(word, context_.sources) +
@@ -435,7 +442,8 @@ Operand ExpressionParser::channels(std::optional<Operand> base) {
 
 // name := parameter | identifier | constant | call | 'defined' '(' identifier ')'
 Operand ExpressionParser::name() {
-  const Token t = stream_.next();
+  Token t = stream_.next();
+  if (const auto table = scope(t)) return scoped(t, *table);
   if (const auto slot = slotOf(t.text))
     return made({.kind = Operation::Kind::parameter, .slot = *slot, .wordSpan = t.span}, {});
   if (const Datum* value = declared(t)) {
@@ -490,16 +498,27 @@ Operand ExpressionParser::definedTest(const Token& word) {
   return {Numbers(isKnown ? 1 : 0), context_.sources.join(word.span, stream_.last())};
 }
 
-// { '[' sum ']' } after a name. An index outside the array names nothing.
-bool ExpressionParser::isDefined(const Token& name) {
-  const Cell cell = context_.symbols.find(name.text);
+// { '[' sum ']' | '.' key } after a name. An index outside the array names nothing.
+bool ExpressionParser::isDefined(Token name) {
+  const auto table = scope(name);
+  const Cell cell =
+      table ? context_.symbols.findIn(*table, name.text) : context_.symbols.find(name.text);
   Datum value = cell ? cell->value : Datum();
-  bool isKnown = cell != nullptr;
+  bool isKnown = cell && !isClosed(cell->value);
   std::size_t dimension = 0, at = 0;
-  while (stream_.peekRaw().is("[")) {
+  while (stream_.peekRaw().is("[") || stream_.peekRaw().is(".")) {
+    const bool isNamed = stream_.peekRaw().is(".");
     const Span bracket = stream_.nextRaw().span;
-    const Datum index = evaluate(Place::setting).value;
-    expect("]", bracket, "[");
+    const Datum index = isNamed ? keyBehindDot() : evaluate(Place::setting).value;
+    if (!isNamed) expect("]", bracket, "[");
+    if (const auto* dictionary = std::get_if<DictionaryPtr>(&value)) {
+      const auto* key = std::get_if<TextPtr>(&index);
+      const DictionaryPtr of = *dictionary;
+      const auto entry = key ? of->entries.find(**key) : of->entries.end();
+      isKnown = isKnown && entry != of->entries.end() && !isBroken(entry->second);
+      value = isKnown ? entry->second : Datum();
+      continue;
+    }
     const auto* array = std::get_if<ArrayPtr>(&value);
     const Numbers* n = numbers(index);
     const int size = array ? (*array)->sizes[dimension] : 0;

@@ -35,7 +35,8 @@ class ExpressionParser {
   /// Whether an expression can begin with this token.
   bool begins(const Token& token) const;
   /// Reads the indices that may follow a name: whether it, or that element, has a value.
-  bool isDefined(const Token& name);
+  bool isDefined(Token name);
+  std::optional<std::size_t> scope(Token& name);
   /// Reads a closing sign or reports an error; the construct was opened at `open`.
   void expect(const char* sign, const Span& open, const char* opener);
   /// Reports "expected X, found Y" at the next token.
@@ -90,6 +91,8 @@ class ExpressionParser {
   bool isChannelAhead();
   Operand channels(std::optional<Operand> base);
   Operand call(const Token& name, const Datum& function);
+  Datum keyBehindDot();
+  Operand scoped(const Token& name, std::size_t table);
   Operand series(const Token& word);
   const Name* counter();
   std::optional<int> slotOf(const Name* name) const;

@@ -28,6 +28,10 @@ bool isBelow(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
+bool isBelowFolder(const std::string& path, const std::string& folder) {
+  return isBelow(canonical(path), canonical(folder));
+}
+
 Includes::Includes(Context& context, const std::string& sceneFile)
     : context_(context), sceneFolder_(fs::path(sceneFile).parent_path().string()) {}
 
@@ -91,6 +95,19 @@ bool Includes::isAllowed(const std::string& path) const {
   for (const std::string& p : context_.options.includePaths)
     if (isBelow(whole, canonical(p))) return true;
   return false;
+}
+
+std::string Includes::outside(const std::string& path) {
+  return "'" + path + "' lies outside the scene's folder and the include paths, which --sandbox " +
+         "forbids";
+}
+
+void Includes::missing(const std::string& message, const Span& span,
+                       const std::vector<std::string>& tried) {
+  Diagnostic& d = context_.reporter.error(span, message);
+  std::string places;
+  for (const std::string& t : tried) places += (places.empty() ? "" : ", ") + t;
+  d.notes.push_back({{}, "looked for " + places + "; -I adds a folder"});
 }
 
 }  // namespace vestige::lang

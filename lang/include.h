@@ -10,6 +10,9 @@
 
 namespace vestige::lang {
 
+/// Whether a path leads to a place below a folder, symbolic links resolved.
+bool isBelowFolder(const std::string& path, const std::string& folder);
+
 class Includes {
  public:
   Includes(Context& context, const std::string& sceneFile);
@@ -30,6 +33,10 @@ class Includes {
   /// Whether the file is allowed: with --sandbox it must lie below the scene's folder or an include
   /// path.
   bool isAllowed(const std::string& path) const;
+  /// The message for a path that is not allowed.
+  static std::string outside(const std::string& path);
+  /// Reports that no file was found.
+  void missing(const std::string& message, const Span& span, const std::vector<std::string>& tried);
 
  private:
   Context& context_;

@@ -23,11 +23,13 @@ class Reader {
         stream_(context_),
         parser_(context_, stream_, words_),
         includes_(context_, name),
-        directives_(context_, stream_, parser_, includes_),
+        dataFiles_(context_, includes_),
+        directives_(context_, stream_, parser_, includes_, dataFiles_),
         result_(result) {
     stream_.onDirective = [this](const Token& t) { directives_.obey(t); };
     stream_.onMacro = [this](const Token& t) { directives_.expand(t); };
     context_.fileExists = [this](const std::string& file) {
+      if (dataFiles_.exists(file)) return true;
       std::vector<std::string> tried;
       const std::string path = includes_.find(file, 0, tried);
       return !path.empty() && includes_.isAllowed(path);
@@ -47,6 +49,10 @@ class Reader {
     } catch (const std::bad_alloc&) {
       result_.diagnostics.error({}, "not enough memory to read this scene");
     }
+    try {
+      dataFiles_.closeAll();
+    } catch (const Stop&) {
+    }
   }
 
  private:
@@ -60,6 +66,7 @@ class Reader {
   TokenStream stream_;
   Parser parser_;
   Includes includes_;
+  DataFiles dataFiles_;
   Directives directives_;
   Result& result_;
 };

@@ -52,7 +52,9 @@ class SchemaSource {
 struct Options {
   std::vector<std::string> includePaths;  ///< -I, in order; the installed library last
   std::vector<std::pair<std::string, std::string>> definitions;  ///< -D name=expression
-  bool sandbox = false;  ///< includes only from below the scene's folder and the include paths
+  bool sandbox = false;     ///< includes only from below the scene's folder and the include paths
+  std::string writeFolder;  ///< --write-folder: #write makes files below it; "": nowhere
+  bool writes = false;      ///< else what #write writes is only kept in memory for this run
   Limits limits;
   int imageWidth = 0, imageHeight = 0;  ///< of the picture in place of the film's; 0: not given
   std::function<void(const std::string&)> debug;  ///< receives #debug text; null: stderr

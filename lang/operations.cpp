@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lang/builtins.h"
+#include "lang/dictionary.h"
 #include "lang/spline.h"
 
 namespace vestige::lang {
@@ -227,6 +228,23 @@ Datum Operations::member(const Operation& o, const Operand& operand) {
   return Numbers(isGrey ? grey(*n) : n->v[std::size_t(place)]);
 }
 
+Datum Operations::entry(const Dictionary& dictionary, const Operand& key) {
+  const auto* text = std::get_if<TextPtr>(&key.value);
+  if (!text) {
+    if (!isBroken(key.value))
+      context_.reporter.error(key.span,
+                              "a key of a dictionary is a string, found " + describe(key.value));
+    return {};
+  }
+  const auto found = dictionary.entries.find(**text);
+  if (found != dictionary.entries.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [name, value] : dictionary.entries) known.push_back(name);
+  context_.reporter.error(key.span, "this dictionary has no entry '" + **text + "'" +
+                                        context_.suggest(key.span, **text, known));
+  return {};
+}
+
 Datum Operations::spline(const Operation& o, std::span<const Operand> operands) {
   const auto* s = std::get_if<SplinePtr>(&operands[0].value);
   const auto t = number(operands[1], "a spline");
@@ -237,6 +255,11 @@ Datum Operations::spline(const Operation& o, std::span<const Operand> operands) 
 Datum Operations::index(const Operation& o, std::span<const Operand> operands) {
   Datum d = operands[0].value;
   for (std::size_t next = 1; next < operands.size();) {
+    if (const auto* found = std::get_if<DictionaryPtr>(&d)) {
+      const DictionaryPtr dictionary = *found;
+      d = entry(*dictionary, operands[next++]);
+      continue;
+    }
     const auto* found = std::get_if<ArrayPtr>(&d);
     if (!found) {
       if (!isBroken(d))

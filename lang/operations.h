@@ -32,6 +32,7 @@ class Operations {
   Datum channels(const Operation& o, std::span<const Operand> operands);
   Datum member(const Operation& o, const Operand& operand);
   Datum index(const Operation& o, std::span<const Operand> operands);
+  Datum entry(const Dictionary& dictionary, const Operand& key);
   Datum spline(const Operation& o, std::span<const Operand> operands);
 
   /// The numbers of an operand, or null after an error that names the operator.

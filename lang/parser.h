@@ -21,6 +21,15 @@ class Parser {
     Span span;
   };
   Declared value(ExpressionParser::Place place);
+  /// What follows the name of an array or a dictionary.
+  struct Selector {
+    bool isKey = false;
+    std::string key;
+    double index = 0;
+    Span span;
+  };
+  /// All that follow, without lookahead.
+  std::vector<Selector> selectors();
   ExpressionParser& expressions() { return expressions_; }
   const Vocabulary& words() const { return words_; }
   /// After a syntax error: to the next word that begins something outside the braces that are open
@@ -84,6 +93,9 @@ class Parser {
   Declared function();
   Declared functionBehind(const Span& word);
   Declared array();
+  void acceptMixed();
+  Declared dictionary();
+  Selector selector();
   SplinePtr spline();
   const SplinePtr* namedSpline();
   void splinePoint(Spline& s, const Span& open);

@@ -27,6 +27,8 @@ class Share {
     std::swap(size_, other.size_);
     return *this;
   }
+  /// Whether it counts nothing yet.
+  bool isEmpty() const { return !total_; }
   void grow(std::int64_t size) {
     if (total_) *total_ += size;
     size_ += size;

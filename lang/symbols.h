@@ -59,6 +59,13 @@ class Symbols {
     const Binding* nearest = nearestOf(name);
     return nearest ? &nearest->cell->value : nullptr;
   }
+  /// The binding in one table, or null.
+  Cell findIn(std::size_t table, const Name* name) const {
+    if (nearestOf(name))
+      for (const Binding& b : stacks_[name->id])
+        if (b.table == table) return b.cell;
+    return nullptr;
+  }
   bool isMacro(const Name* name) const {
     const Datum* d = value(name);
     return d && std::holds_alternative<MacroPtr>(*d);
@@ -86,6 +93,15 @@ class Symbols {
   bool undefine(const Name* name) {
     if (!nearestOf(name)) return false;
     drop(stacks_[name->id]);
+    return true;
+  }
+  /// #undef in one table; false if it does not bind the name.
+  bool undefineIn(std::size_t table, const Name* name) {
+    if (!findIn(table, name)) return false;
+    auto& stack = stacks_[name->id];
+    stack.erase(std::find_if(stack.begin(), stack.end(),
+                             [table](const Binding& b) { return b.table == table; }));
+    *memory_ -= kEntry;
     return true;
   }
   /// Every visible name, for "did you mean".

@@ -136,10 +136,6 @@ const char* insteadOf(const std::string& word) {
       {"clipped_by", notYet},
       {"bounded_by", "bounds are found by themselves: leave it out"},
       {"#default", notYet},
-      {"#fopen", notYet},
-      {"#read", notYet},
-      {"#write", notYet},
-      {"#fclose", notYet},
       {"parallel", "write 'light distant { ... }'"}};
   const auto found = words.find(word);
   return found == words.end() ? nullptr : found->second;

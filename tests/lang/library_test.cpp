@@ -97,6 +97,10 @@ const Row kMath[] = {
     {"ShowN(VLength5D(<1,2,3,4,5>)) ShowN(VDot5D(<1,2,3,4,5>,<5,4,3,2,1>)) ShowN(VLength5D(<0,0,0,0,0>))", "7.416198487096|35.000000000000|0.000000000000"},
 };
 const Row kTransforms[] = {
+    {"#declare LL=spline{natural_spline 0,<1,1,1> 0.5,<3,4,5>, 1,<9,3,-3> 1.5,<2,2,-6>} #declare TT=function{transform{Spline_Trans(LL,0.6,y,0.1,0)}} ShowV(TT(0,0,0)) ShowV(TT(1,2,3))", "4.360000000,4.056000000,4.008000000|5.842257787,5.867627954,1.088939191"},
+    {"#declare LL=spline{natural_spline 0,<1,1,1> 0.5,<3,4,5>, 1,<9,3,-3> 1.5,<2,2,-6>} #declare TT=function{transform{Spline_Trans(LL,0.6,y,0.1,0.5)}} ShowV(TT(0,0,0)) ShowV(TT(1,2,3))", "4.360000000,4.056000000,4.008000000|5.727207427,5.781485818,0.982534326"},
+    {"#declare LL=spline{natural_spline 0,<1,1,1> 0.5,<3,4,5>, 1,<9,3,-3> 1.5,<2,2,-6>} #declare TT=function{transform{Spline_Trans(LL,0.6,<1,2,0>,0.1,3)}} ShowV(TT(0,0,0)) ShowV(TT(1,2,3))", "4.360000000,4.056000000,4.008000000|5.787313035,5.828455032,1.037952751"},
+    {"#declare LL=spline{natural_spline 0,<1,1,1> 0.5,<3,4,5>, 1,<9,3,-3> 1.5,<2,2,-6>} #declare TT=function{transform{Spline_Trans(LL,0.9,z,0.05,-1)}} ShowV(TT(0,0,0)) ShowV(TT(1,2,3))", "8.504000000,3.328000000,-1.336000000|11.654543713,3.177605192,-3.348822822"},
     {"#declare TT=function{transform{Shear_Trans(<1,2,3>,<0,1,0>,<-1,0,2>)}} ShowV(TT(1,2,3)) ShowV(TT(-0.5,0.25,7))", "-2.000000000,4.000000000,9.000000000|-7.500000000,-0.750000000,12.500000000"},
     {"#declare TT=function{transform{Shear_Trans(x,y,z)}} ShowV(TT(1,2,3)) ShowV(TT(-0.5,0.25,7))", "1.000000000,2.000000000,3.000000000|-0.500000000,0.250000000,7.000000000"},
     {"#declare TT=function{transform{Matrix_Trans(<1,2,3>,<0,1,0>,<-1,0,2>,<4,5,6>)}} ShowV(TT(1,2,3)) ShowV(TT(-0.5,0.25,7))", "2.000000000,9.000000000,15.000000000|-3.500000000,4.250000000,18.500000000"},
