@@ -2,6 +2,7 @@
 // The rest of the parser: what can be declared, and transforms.
 #include <cmath>
 
+#include "lang/dismantle.h"
 #include "lang/parser.h"
 #include "lang/transforms.h"
 
@@ -145,7 +146,7 @@ Parser::Declared Parser::function() { return functionBehind(stream_.next().span)
 
 Parser::Declared Parser::functionBehind(const Span& word) {
   const Nested nested(context_, word);
-  auto f = std::make_shared<Function>();
+  auto f = makeHolder<Function>();
   const Span open = stream_.peekRaw().span;
   if (stream_.acceptRaw("(")) {
     do {
@@ -182,7 +183,7 @@ void Parser::acceptMixed() {
 // array := 'array' ['mixed'] { '[' sum ']' } ['mixed'] [ elements ]
 Parser::Declared Parser::array() {
   const Token word = stream_.next();
-  auto a = std::make_shared<Array>();
+  auto a = makeHolder<Array>();
   std::size_t total = 1;
   acceptMixed();
   while (stream_.peekRaw().is("[")) {

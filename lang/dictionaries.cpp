@@ -3,6 +3,7 @@
 #include "lang/dictionary.h"
 
 #include "lang/directives.h"
+#include "lang/dismantle.h"
 
 namespace vestige::lang {
 namespace {
@@ -26,7 +27,7 @@ void put(Context& context, Dictionary& d, const std::string& key, Datum value, c
 Parser::Declared Parser::dictionary() {
   const Span word = stream_.next().span;
   const Nested nested(context_, word);
-  auto d = std::make_shared<Dictionary>();
+  auto d = makeHolder<Dictionary>();
   if (stream_.peekRaw().is("{")) {
     const Span open = stream_.next().span;
     while (!stream_.peek().is("}")) {
@@ -89,7 +90,7 @@ Datum* Directives::placeOf(Datum& whole, const std::vector<Parser::Selector>& pa
       if (dictionary->use_count() > 1) {
         context_.budget.copy(s.span, (*dictionary)->entries.size() * Dictionary::kEntry);
         context_.budget.need(s.span, double((*dictionary)->entries.size() * Dictionary::kEntry));
-        *dictionary = std::make_shared<const Dictionary>(**dictionary);
+        *dictionary = makeHolder<const Dictionary>(**dictionary);
         context_.checkElements(s.span);
       }
       auto& own = const_cast<Dictionary&>(**dictionary);
@@ -164,7 +165,7 @@ void Directives::forget(const Token& name) {
     context_.reporter.warning(last.span, "there is no entry '" + last.key + "' to forget");
     return;
   }
-  auto copy = std::make_shared<Dictionary>(**dictionary);
+  auto copy = makeHolder<Dictionary>(**dictionary);
   context_.budget.copy(last.span, copy->entries.size() * Dictionary::kEntry);
   copy->entries.erase(last.key);
   copy->share = Share(context_.elements, std::int64_t(copy->entries.size()));

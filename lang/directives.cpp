@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 
+#include "lang/dismantle.h"
 #include "lang/predefined.h"
 #include "lang/printable.h"
 
@@ -201,7 +202,7 @@ ArrayPtr Directives::copied(const Span& span, const Array& array) {
   const std::size_t bytes = array.data.size() * sizeof(Datum);
   context_.budget.need(span, double(bytes));
   context_.budget.copy(span, bytes);
-  ArrayPtr copy = std::make_shared<const Array>(array);
+  ArrayPtr copy = makeHolder<const Array>(array);
   context_.checkElements(span);
   return copy;
 }

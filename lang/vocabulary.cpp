@@ -71,6 +71,7 @@ const char* insteadOf(const std::string& word) {
       "write 'brdf rough_conductor { alpha 0.1 }' or 'brdf phong { "
       "specular rgb 0.5 exponent 50 }'";
   static const char* const none = "it has no counterpart here; light is computed, not set";
+  static const char* const objects = "Vestige cannot measure objects while it reads the text";
   static const char* const notYet = "Vestige does not have it yet";
   static const std::map<std::string, const char*> words = {
       {"texture", brdf},
@@ -136,6 +137,10 @@ const char* insteadOf(const std::string& word) {
       {"clipped_by", notYet},
       {"bounded_by", "bounds are found by themselves: leave it out"},
       {"#default", notYet},
+      {"min_extent", objects},
+      {"max_extent", objects},
+      {"inside", objects},
+      {"trace", objects},
       {"parallel", "write 'light distant { ... }'"}};
   const auto found = words.find(word);
   return found == words.end() ? nullptr : found->second;

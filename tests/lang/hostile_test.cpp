@@ -87,6 +87,27 @@ const Row kQuick[] = {
      "--max-nesting"},
     {"an array of 1e9 elements", [] { return std::string("#declare A = array[1e9];"); },
      "--max-array-elements"},
+    {"300,000 arrays inside each other",
+     [] {
+       return std::string(
+           "#declare A = array[1] { 0 } #for (I, 1, 300000) #declare A = array[1] "
+           "{ A } #end #error \"the end\"");
+     },
+     "the end"},
+    {"300,000 dictionaries inside each other",
+     [] {
+       return std::string(
+           "#declare A = dictionary; #for (I, 1, 300000) #declare A = dictionary { "
+           ".a: A } #end #error \"the end\"");
+     },
+     "the end"},
+    {"300,000 functions inside each other",
+     [] {
+       return std::string(
+           "#declare F = function(a) { a } #for (I, 1, 300000) #declare F = "
+           "function(a) { F(a) } #end #error \"the end\"");
+     },
+     "the end"},
     {"a million indices",
      [] { return "#declare A = array[2]; #declare B = A" + times(1'000'000, "[1]") + ";"; },
      "no value yet"},
