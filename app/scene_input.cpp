@@ -185,8 +185,9 @@ void warnOfRefused(const Registry& registry, const Diagnostics& said) {
 }
 
 LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage stage,
-                      const BuildOptions& build) {
+                      const BuildOptions& build, lang::TextStore* texts) {
   lang::Options options;
+  options.store = texts;
   options.includePaths = includeFolders(input.includePaths);
   for (const std::string& text : input.definitions) options.definitions.push_back(definition(text));
   options.sandbox = input.sandbox;

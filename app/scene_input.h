@@ -46,8 +46,9 @@ struct LoadedScene {
   double loadSeconds = 0, buildSeconds = 0;  ///< language; files, textures, acceleration structure
 };
 enum class Stage { text, built };
+/// `texts`: keeps the tokens of the text for the next time; may be null.
 LoadedScene loadScene(const SceneInput& input, const Registry& registry, Stage stage,
-                      const BuildOptions& build = {});
+                      const BuildOptions& build = {}, lang::TextStore* texts = nullptr);
 /// --integrator and --footprint, in place of the scene's own, and --texture-memory. `build` must
 /// outlive the parsing.
 void addBuildOptions(CLI::App& command, BuildOptions& build, const std::string& group);

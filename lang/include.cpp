@@ -3,23 +3,12 @@
 
 #include <filesystem>
 
-#include <vestige/tools/regular_file.h>
+#include "lang/text_store.h"
 
 namespace vestige::lang {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool isFile(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path, error);
-}
-
-fs::path canonical(const fs::path& path) {
-  std::error_code error;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
-  return error ? path : whole;
-}
 
 bool isBelow(const fs::path& path, const fs::path& folder) {
   const auto [rest, unused] = std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
@@ -36,15 +25,19 @@ Includes::Includes(Context& context, const std::string& sceneFile)
     : context_(context), sceneFolder_(fs::path(sceneFile).parent_path().string()) {}
 
 Includes::File Includes::add(const std::string& name, std::string text) {
+  TextStore* const store = context_.options.store;
   const int file = context_.sources.add(name, std::move(text));
-  lists_.push_back(
-      tokenise(file, context_.sources, context_.names, context_.reporter, context_.budget));
+  const std::string& whole = context_.sources.text(file).text;
+  const auto known = store ? store->find(name, whole) : nullptr;
+  lists_.push_back(tokenise(file, context_.sources, context_.names, &context_.reporter,
+                            context_.budget, known ? &known->tokens : nullptr));
+  if (store && !known) store->keep(name, whole, lists_.back());
   return {file, &lists_.back()};
 }
 
 std::optional<Includes::File> Includes::load(const std::string& path, std::string& why) {
   if (const auto found = loaded_.find(path); found != loaded_.end()) return found->second;
-  auto text = readRegular(path, std::uintmax_t(context_.options.limits.memory), why);
+  auto text = readText(context_.options, path, std::uintmax_t(context_.options.limits.memory), why);
   if (!text) return {};
   return loaded_[path] = add(path, std::move(*text));
 }
@@ -62,7 +55,7 @@ std::string Includes::find(const std::string& name, int askingFile,
   }
   for (const fs::path& folder : folders) {
     const std::string path = (folder / wanted).lexically_normal().string();
-    if (isFile(path)) return path;
+    if (isText(context_.options, path)) return path;
     if (std::find(tried.begin(), tried.end(), path) == tried.end()) tried.push_back(path);
   }
   return {};
@@ -75,10 +68,9 @@ std::string Includes::declaredIn(const std::string& name) const {
     for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
          entry.increment(error)) {
       const fs::path& path = entry->path();
-      if (path.extension() != ".inc" || !isFile(path) || fs::file_size(path, error) > kLargest)
-        continue;
+      if (path.extension() != ".inc" || !isText(context_.options, path.string())) continue;
       std::string ignored;
-      const auto text = readRegular(path.string(), kLargest, ignored);
+      const auto text = readText(context_.options, path.string(), kLargest, ignored);
       for (const char* directive : {"#declare ", "#macro "})
         if (text && (text->find(directive + name + " ") != std::string::npos ||
                      text->find(directive + name + "(") != std::string::npos))

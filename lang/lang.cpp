@@ -5,10 +5,9 @@
 #include "lang/directives.h"
 #include "lang/hash.h"
 #include "lang/predefined.h"
+#include "lang/text_store.h"
 
 #include <new>
-
-#include <vestige/tools/regular_file.h>
 
 namespace vestige::lang {
 namespace {
@@ -86,7 +85,7 @@ Result readSceneText(const std::string& name, const std::string& text, const Sch
 
 Result readScene(const std::string& file, const SchemaSource& schemas, const Options& options) {
   std::string why;
-  const auto text = readRegular(file, std::uintmax_t(options.limits.memory), why);
+  const auto text = readText(options, file, std::uintmax_t(options.limits.memory), why);
   if (text) return readSceneText(file, *text, schemas, options);
   Result result;
   result.diagnostics.error({}, "the scene '" + file + "' " + why);

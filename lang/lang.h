@@ -13,7 +13,8 @@
 
 namespace vestige::lang {
 
-class Sources;  // lang/source.h: texts and expansions that spans refer to
+class Sources;    // lang/source.h: texts and expansions that spans refer to
+class TextStore;  // lang/text_store.h
 
 /// Limits on the cost of hostile texts: steps and bytes bound time and memory whatever the text
 /// does (budget.h); the others find a mistake sooner. Each has its own message, which names the
@@ -58,6 +59,9 @@ struct Options {
   Limits limits;
   int imageWidth = 0, imageHeight = 0;  ///< of the picture in place of the film's; 0: not given
   std::function<void(const std::string&)> debug;  ///< receives #debug text; null: stderr
+  /// Keeps tokens from one run to the next, and holds buffers that count in place of files. Null:
+  /// every file is read and tokenised.
+  TextStore* store = nullptr;
 };
 
 struct Result {

@@ -240,6 +240,25 @@ class Lexer {
   std::array<const Name*, 128 * 3> signs_{};
 };
 
+/// The tokens with the names of this run, which are met in the same order as by the Lexer: every
+/// id and every byte counted is the same.
+std::vector<StoredToken> renamed(int file, const std::vector<StoredToken>& known, Names& names,
+                                 Budget& budget) {
+  std::vector<const Name*> here;  // by the id there
+  std::vector<StoredToken> tokens;
+  for (StoredToken t : known) {
+    if (t.kind != Token::Kind::number) {
+      const std::size_t id = t.text->id;
+      if (id >= here.size()) here.resize(id + 1);
+      if (!here[id]) here[id] = names.intern(*t.text);
+      t.text = here[id];
+    }
+    budget.reserveOne({file, t.begin, t.end, -1}, tokens);
+    tokens.push_back(t);
+  }
+  return tokens;
+}
+
 bool opens(const std::string& word) {
   return word == "if" || word == "ifdef" || word == "ifndef" || word == "while" || word == "for" ||
          word == "switch" || word == "macro";
@@ -249,7 +268,7 @@ bool continues(const std::string& word) {
 }
 
 /// Links each construct's parts. Skipped text is paired too, as POV-Ray does.
-void pair(TokenList& list, Reporter& reporter) {
+void pair(TokenList& list, Reporter* reporter) {
   struct Open {
     std::uint32_t first, last;
   };
@@ -268,9 +287,10 @@ void pair(TokenList& list, Reporter& reporter) {
     } else if (*t.text == "end" || continues(*t.text)) {
       const bool wantsSwitch = *t.text == "case" || *t.text == "range";
       if (open.empty() || (wantsSwitch && !isSwitch(open.back()))) {
-        reporter.error(list.token(i).span,
-                       "#" + *t.text + " without " +
-                           (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
+        if (reporter)
+          reporter->error(list.token(i).span,
+                          "#" + *t.text + " without " +
+                              (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
         continue;
       }
       tokens[open.back().last].jump = i;
@@ -284,18 +304,20 @@ void pair(TokenList& list, Reporter& reporter) {
   for (const Open& o : open) {
     tokens[o.last].jump = std::uint32_t(tokens.size() - 1);
     close(o.first, tokens[o.last].jump);
-    reporter.error(list.token(o.first).span, "#" + *tokens[o.first].text + " has no #end");
+    if (reporter)
+      reporter->error(list.token(o.first).span, "#" + *tokens[o.first].text + " has no #end");
   }
 }
 
 }  // namespace
 
-TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter,
-                   Budget& budget) {
+TokenList tokenise(int file, const Sources& sources, Names& names, Reporter* reporter,
+                   Budget& budget, const std::vector<StoredToken>* known) {
   TokenList list;
   list.file = file;
   budget.copy({}, sources.text(file).text.size());
-  list.tokens = Lexer(file, sources, names, budget).run();
+  list.tokens =
+      known ? renamed(file, *known, names, budget) : Lexer(file, sources, names, budget).run();
   pair(list, reporter);
   constexpr std::size_t kClosing = 48;  // bytes of an entry of the map
   budget.keep(std::int64_t(list.closings.size() * kClosing));

@@ -75,9 +75,11 @@ struct TokenList {
   }
 };
 
-/// Never fails: a lexical error becomes a `bad` token, an unpaired #end or #if a diagnostic.
-TokenList tokenise(int file, const Sources& sources, Names& names, Reporter& reporter,
-                   Budget& budget);
+/// Never fails: a lexical error becomes a `bad` token, an unpaired #end or #if a diagnostic
+/// (null: none).
+/// `known`: the tokens of an equal text, with names of their own; the text is not scanned again.
+TokenList tokenise(int file, const Sources& sources, Names& names, Reporter* reporter,
+                   Budget& budget, const std::vector<StoredToken>* known = nullptr);
 
 /// "'light'", "number 3", "the end of the file": a token in messages.
 std::string describe(const Token& token, const Sources& sources);

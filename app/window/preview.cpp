@@ -212,7 +212,7 @@ bool Preview::load(const Wish& wish) {
   build.files = &fresh->looked;
   build.cache = cache_;
   build.integrator.clear(), build.footprint.clear(), build.settings.clear();  // see renew()
-  fresh->loaded = loadScene(input_, fresh->registry, Stage::built, build);
+  fresh->loaded = loadScene(input_, fresh->registry, Stage::built, build, &texts_);
   std::set<std::string> files = fresh->looked;
   files.insert(input_.file);
   for (int i = 0; i < fresh->loaded.text.sources->size(); ++i)

@@ -17,6 +17,7 @@
 #include "engine/film/checkpoint.h"
 #include "engine/render/session.h"
 #include "engine/scene/build_cache.h"
+#include "lang/text_store.h"
 
 namespace vestige::app {
 
@@ -181,6 +182,7 @@ class Preview {
   std::atomic<bool> cancelCoarse_{false};
   // Of the working thread alone:
   const std::shared_ptr<BuildCache> cache_ = std::make_shared<BuildCache>();
+  lang::TextStore texts_;
   std::shared_ptr<OpenScene> open_;
   Wish done_;  ///< what open_ was made for
   bool isTextWrong_ = false;
