@@ -19,22 +19,16 @@ namespace {
 
 constexpr std::size_t kColours = 3;
 
-/// Radiance in units of the film, rounded to nearest; |x| is at most kRadianceLimit. On the bits of
-/// the number: the compiler's own conversion calls a library.
+/// Radiance in units of the film, rounded to nearest; |x| is at most kRadianceLimit.
 Int128 inUnits(double x) noexcept {
-  constexpr int kMantissa = 52;
-  constexpr int kBias = 1023 + kMantissa;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const int exponent = int(bits >> kMantissa & 0x7ff);
-  const std::uint64_t one = std::uint64_t(1) << kMantissa;
-  const std::uint64_t mantissa = (bits & (one - 1)) | one;
-  const int shift = exponent - kBias + kRadianceBits;
-  Int128 units = 0;  // below 2^-64 of a unit, also for 0 and subnormal numbers
-  if (shift >= 0)
-    units = Int128(mantissa) << shift;
-  else if (shift > -64)
-    units = Int128((mantissa + (std::uint64_t(1) << (-shift - 1))) >> -shift);
-  return x < 0 ? -units : units;
+  const double units = x / kRadianceUnit;  // exact: a power of two
+  if (std::abs(units) < 0x1p52) return std::int64_t(units + std::copysign(0.5, units));
+  if (std::abs(units) < 0x1p63) return std::int64_t(units);  // has no fraction
+  // On the bits of the number: the compiler's own conversion calls a library.
+  const auto bits = std::bit_cast<std::uint64_t>(units);
+  const std::uint64_t one = std::uint64_t(1) << 52;
+  const Int128 whole = Int128((bits & (one - 1)) | one) << (int(bits >> 52 & 0x7ff) - (1023 + 52));
+  return x < 0 ? -whole : whole;
 }
 
 /// Bytes that this process may ever have.

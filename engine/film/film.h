@@ -25,7 +25,6 @@ __extension__ typedef __int128 Int128;
 
 /// The unit of the sums of radiance: a sample of 1e-12 keeps 20 bits. The limit of a sample is
 /// 1e15; a sum holds 2^17 samples at the limit, or 10^8 of 1e12.
-inline constexpr int kRadianceBits = 60;
 inline constexpr double kRadianceUnit = 0x1p-60;
 inline constexpr double kRadianceLimit = 0x1p50;
 

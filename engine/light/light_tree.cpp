@@ -247,9 +247,8 @@ bool LightTree::skipsTree(Vec3 at) const noexcept {
   return !outside_.empty() && !nodes_.empty() && !(nodes_[0].cluster.importance(at) > 0);
 }
 
-std::optional<LightChoice> LightTree::choose(const Receiver& r, Real u) const noexcept {
+std::optional<LightChoice> LightTree::chooseAmongMany(const Receiver& r, Real u) const noexcept {
   if (table_.isEmpty()) return std::nullopt;
-  if (only_ >= 0) return LightChoice{only_, 1, u};  // most scenes have one
   const int tree = int(outside_.size());
   const Real all = skipsTree(r.position) ? table_.chanceBefore(tree) : Real(1);
   const LightChoice entry = table_.choose(u * all);

@@ -57,11 +57,16 @@ class LightTree {
 
   /// Nullopt: there is no light, or none of those in the branch that u leads to reaches the
   /// receiver.
-  std::optional<LightChoice> choose(const Receiver& r, Real u) const noexcept;
+  std::optional<LightChoice> choose(const Receiver& r, Real u) const noexcept {
+    if (only_ >= 0) return LightChoice{only_, 1, u};  // most scenes have one
+    return chooseAmongMany(r, u);
+  }
   /// The probability that choose() returns this light, [0,1].
   Real chance(int light, const Receiver& r) const noexcept;
 
  private:
+  std::optional<LightChoice> chooseAmongMany(const Receiver& r, Real u) const noexcept;
+
   struct Node {
     LightCluster cluster;
     std::int32_t child;  ///< the first of two neighbours; below 0: ~light

@@ -120,9 +120,8 @@ Rgb Material::opacityAt(const SurfacePoint& at) const noexcept {
   return cut(Inputs(constants.data()).rgb(opacity));
 }
 
-Inputs Material::evaluate(const SurfacePoint& at, const Footprint& footprint,
-                          InputBuffer& buffer) const noexcept {
-  if (textured.empty()) return Inputs(constants.data());
+Inputs Material::lookUp(const SurfacePoint& at, const Footprint& footprint,
+                        InputBuffer& buffer) const noexcept {
   std::copy_n(constants.begin(), inputs, buffer.begin());
   for (const TexturedInput& t : textured)
     buffer[t.input] = toInput(t.pigment.eval(at, t.isFiltered ? footprint : Footprint{}), t);

@@ -60,7 +60,11 @@ struct Material {
   Rgb cut(Rgb opacity) const noexcept;
   /// Looks the inputs up; constants are not copied where nothing is textured.
   Inputs evaluate(const SurfacePoint& at, const Footprint& footprint,
-                  InputBuffer& buffer) const noexcept;
+                  InputBuffer& buffer) const noexcept {
+    return textured.empty() ? Inputs(constants.data()) : lookUp(at, footprint, buffer);
+  }
+  Inputs lookUp(const SurfacePoint& at, const Footprint& footprint,
+                InputBuffer& buffer) const noexcept;
 };
 
 /// Everything a BRDF needs at a surface, seen along toPrev [SDK: brdf.h says which way it faces].

@@ -42,13 +42,25 @@ void Scene::Impl::findCameraMedia() {
   cameraMedia = media.at(world, cameraOrigin);
 }
 
+bool Scene::Impl::meetAmongSolids(const Ray& ray, Surface& surface) const noexcept {
+  const auto meet = [&](const Ray& r) {
+    return world.intersect(r, surface) && (surface.solid == 0 || media.follow(world, r, surface));
+  };
+  if (!media.isRestricted()) return meet(ray);
+  Ray among = ray;
+  among.media = media.seenBy(ray.media, ray.kind);
+  return meet(among);
+}
+
 Rgb Scene::Impl::transmittance(const Ray& ray) const noexcept {
-  if (media.isNone()) {
-    const auto opacity = [](const void* self, const Surface& s) {
-      return static_cast<const Impl*>(self)->opacity(s);
-    };
-    return world.transmittance(ray, opacity, this);
-  }
+  if (!media.isNone()) return transmittanceAmongSolids(ray);
+  const auto opacity = [](const void* self, const Surface& s) {
+    return static_cast<const Impl*>(self)->opacity(s);
+  };
+  return world.transmittance(ray, opacity, this);
+}
+
+Rgb Scene::Impl::transmittanceAmongSolids(const Ray& ray) const noexcept {
   Media::Shadow shadow{media, world, ray.direction, media.seenBy(ray.media, RayKind::shadow),
                        ray.tMin};
   const std::pair<const Impl*, Media::Shadow*> both{this, &shadow};

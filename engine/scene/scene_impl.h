@@ -44,7 +44,7 @@ struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
   void findCameraMedia();
 
   bool intersect(const Ray& ray, Surface& surface) const noexcept override {
-    return media.isRestricted() ? meet(seenBy(ray), surface) : meet(ray, surface);
+    return media.isNone() ? world.intersect(ray, surface) : meetAmongSolids(ray, surface);
   }
   Rgb transmittance(const Ray& ray) const noexcept override;
   MediumStack mediaAt(Vec3 position) const noexcept override {
@@ -85,15 +85,9 @@ struct Scene::Impl final : Tracer, Materials, LightSet, PatchSet {
   }
 
  private:
-  /// The ray among the solids that its kind meets.
-  [[gnu::noinline]] Ray seenBy(Ray ray) const noexcept {
-    ray.media = media.seenBy(ray.media, ray.kind);
-    return ray;
-  }
-  bool meet(const Ray& ray, Surface& surface) const noexcept {
-    return world.intersect(ray, surface) &&
-           (surface.solid == 0 || media.follow(world, ray, surface));
-  }
+  /// intersect() and transmittance() where there are dielectric solids.
+  bool meetAmongSolids(const Ray& ray, Surface& surface) const noexcept;
+  Rgb transmittanceAmongSolids(const Ray& ray) const noexcept;
   const Material& material(const Surface& s) const noexcept {
     return materials[std::size_t(objectMaterial[std::size_t(s.object)])];
   }

@@ -183,6 +183,8 @@ struct World::Impl {
     body->fill(s, ray, hit);
     s.light = lights[std::size_t(hit.item)];
   }
+  /// transmittance() where shadow rays may pass through a surface.
+  Rgb throughLayers(const Ray& ray, Opacity opacity, const void* context) const noexcept;
   /// Takes in layers, by t. Surfaces at the same t have no order but that of their values.
   void multiply(Product& product, const Ray& ray, std::span<const TreeHit> hits, Opacity opacity,
                 const void* context) const noexcept {
@@ -212,8 +214,8 @@ struct World::Impl {
   }
 };
 
-void World::Body::fillTriangle(Surface& s, const Item& item, const Ray& ray,
-                               TreeHit hit) const noexcept {
+inline void World::Body::fillTriangle(Surface& s, const Item& item, const Ray& ray,
+                                      TreeHit hit) const noexcept {
   if constexpr (sizeof(Real) == 8) {  // Embree found the triangle in float; now where exactly
     const Ray local = item.baked ? ray : item.place.object(ray);
     const auto exact = item.triangles->meet(std::uint32_t(hit.primitive), local);
@@ -227,8 +229,8 @@ void World::Body::fillTriangle(Surface& s, const Item& item, const Ray& ray,
   s.offset = triangleOffset(item, s, extent);
 }
 
-void World::Body::fillShape(Surface& s, const Item& item, const Ray& ray,
-                            const TreeHit& hit) const noexcept {
+inline void World::Body::fillShape(Surface& s, const Item& item, const Ray& ray,
+                                   const TreeHit& hit) const noexcept {
   const Vec3 near = item.place.object(ray).at(hit.t);
   const SurfacePoint local = item.placement.shape->surface(near, {hit.t, hit.primitive, hit.b});
   static_cast<SurfacePoint&>(s) = item.place.world(local);
@@ -237,7 +239,7 @@ void World::Body::fillShape(Surface& s, const Item& item, const Ray& ray,
   s.offset = shapeOffset(item, local.position, s.position);
 }
 
-void World::Body::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept {
+inline void World::Body::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept {
   const Item& item = items[hit.item];
   if (item.triangles)
     fillTriangle(s, item, ray, hit);
@@ -315,15 +317,20 @@ bool World::intersect(const Ray& ray, Surface& surface) const noexcept {
 
 Rgb World::transmittance(const Ray& ray, Opacity opacity, const void* context) const noexcept {
   if (!impl_->body || !(ray.tMin < ray.tMax)) return grey(1);
-  const Tree& tree = impl_->body->tree;
+  if (impl_->body->hasLayers) return impl_->throughLayers(ray, opacity, context);
+  return grey(impl_->body->tree.occluded(ray, opaque(RayKind::shadow)) ? 0 : 1);
+}
+
+Rgb World::Impl::throughLayers(const Ray& ray, Opacity opacity,
+                               const void* context) const noexcept {
+  const Tree& tree = body->tree;
   constexpr RayKind kind = RayKind::shadow;
-  if (!impl_->body->hasLayers) return grey(tree.occluded(ray, opaque(kind)) ? 0 : 1);
   Layers layers;
   if (!tree.gather(ray, everything(kind), ray.tMin, layers)) return {};
   Product product;
   for (;;) {
     layers.settle();
-    impl_->multiply(product, ray, layers.hits(), opacity, context);
+    multiply(product, ray, layers.hits(), opacity, context);
     if (!layers.isCut() || isBlack(product.rgb())) return product.rgb();
     const Real from = layers.goOn();
     tree.gather(ray, translucent(kind), from, layers);

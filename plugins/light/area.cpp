@@ -61,18 +61,15 @@ class Area final : public Light {
   std::optional<LightSample> sample(const Receiver& r, Vec2 u) const noexcept override {
     const Vec3 position = at(u), way = position - r.position;
     const Real distance = length(way);
-    std::optional<LightSample> s(std::in_place);
-    s->hit = {r.position, way / distance, distance, position, normal_, u};
-    s->hit.offset = offset_;
-    s->radiance = radiance_;
-    s->pdf = pdf(r, s->hit);
-    if (!(s->pdf > 0) || !std::isfinite(s->pdf)) s.reset();
-    return s;
+    const Vec3 toLight = way / distance;
+    const Real pdf = density(toLight, distance);
+    if (!(pdf > 0) || !std::isfinite(pdf)) return std::nullopt;
+    return LightSample{
+        {r.position, toLight, distance, position, normal_, u, {}, offset_}, radiance_, pdf};
   }
 
   Real pdf(const Receiver&, const LightHit& hit) const noexcept override {
-    const Real c = cosine(hit.toLight);
-    return c > 0 ? sqr(hit.distance) / (area_ * c) : 0;
+    return density(hit.toLight, hit.distance);
   }
 
   Rgb eval(const LightHit& hit) const noexcept override {
@@ -142,6 +139,12 @@ class Area final : public Light {
   Real cosine(Vec3 toLight) const noexcept {
     const Real c = -dot(normal_, toLight);
     return twoSided_ ? std::abs(c) : std::max(c, Real(0));
+  }
+
+  /// Of a point drawn by area, 1/sr.
+  Real density(Vec3 toLight, Real distance) const noexcept {
+    const Real c = cosine(toLight);
+    return c > 0 ? sqr(distance) / (area_ * c) : 0;
   }
 
   Vec3 corner_;
