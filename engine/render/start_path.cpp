@@ -24,9 +24,10 @@ StartedPath startPath(const PathSource& source, int x, int y, std::uint32_t inde
   const FilterOffset dx = source.filter.sample(u.x);
   const FilterOffset dy = source.filter.sample(u.y);
   const Real w = Real(source.width), h = Real(source.height);
+  const int variables = source.camera.variables();
   const CameraNumbers numbers{
       {(Real(x) + Real(0.5) + dx.offset) / w, (Real(y) + Real(0.5) + dy.offset) / h},
-      source.camera.variables() > 2 ? sampler.pair(dimension::kLens) : Vec2{},
+      variables > 2 ? sampler.pair(dimension::kLens) : Vec2{},
       w / h};
   constexpr CameraSample kNone{{}, {}, {}};
   const CameraSample ray = source.camera.sample(numbers).value_or(kNone);
@@ -38,7 +39,7 @@ StartedPath startPath(const PathSource& source, int x, int y, std::uint32_t inde
                    source.scene.mediaAt(ray.origin)},
            .jacobian = source.wantsJacobian && isSeen ? filmJacobian(source, numbers, dx, dy)
                                                       : RayJacobian{},
-           .cameraVariables = source.camera.variables(),
+           .cameraVariables = variables,
            .declaredSamples = source.declaredSamples,
            .counters = outputs.counters,
            .aovs = outputs.aovs,

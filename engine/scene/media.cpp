@@ -14,6 +14,12 @@ bool entersAt(const Surface& s, Vec3 direction) noexcept {
 /// Of a ray, whether a boundary is there: what fills the place changes.
 bool isThere(const Surface& s) noexcept { return s.mediaInFront.top() != s.mediaBehind.top(); }
 
+/// Beer's law. Most solids do not absorb.
+Rgb attenuation(Rgb depth) noexcept {
+  if (isBlack(depth)) return grey(1);
+  return {std::exp(-depth.r), std::exp(-depth.g), std::exp(-depth.b)};
+}
+
 }  // namespace
 
 void Media::build(const World& world, const std::vector<const Material*>& materials) {
@@ -47,11 +53,9 @@ void Media::addDepth(Rgb& depth, Rgb absorption, Real distance) noexcept {
 }
 
 Rgb Media::transmittance(const MediumStack& media, Real distance) const noexcept {
-  const Rgb a = absorption_[media.top()];
-  if (isBlack(a)) return grey(1);
   Rgb depth;
-  addDepth(depth, a, distance);
-  return {std::exp(-depth.r), std::exp(-depth.g), std::exp(-depth.b)};
+  addDepth(depth, absorption_[media.top()], distance);
+  return attenuation(depth);
 }
 
 template <class Visit>
@@ -135,8 +139,7 @@ bool Media::Shadow::pass(Surface s) noexcept {
 
 Rgb Media::Shadow::transmittance(Real distance) noexcept {
   addDepth(opticalDepth, media.absorption_[stack.top()], distance - from);
-  const Rgb d = opticalDepth;
-  return {std::exp(-d.r), std::exp(-d.g), std::exp(-d.b)};
+  return attenuation(opticalDepth);
 }
 
 }  // namespace vestige

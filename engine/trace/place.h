@@ -28,6 +28,11 @@ struct Place {
     ray.direction = toObject.vector(world.direction);
     return ray;
   }
+  /// object(world).at(t), without a copy of the ray.
+  Vec3 objectPoint(const Ray& world, Real t) const noexcept {
+    if (identity) return world.at(t);
+    return toObject.point(world.origin) + t * toObject.vector(world.direction);
+  }
   /// World area of a unit of area whose unit normal in object space is this.
   Real stretch(Vec3 objectNormal) const noexcept {
     return areaScale * length(normals * objectNormal);

@@ -20,6 +20,7 @@ struct Item {
   const Triangles* triangles = nullptr;  ///< null: analytic
   bool baked = false;                    ///< the triangles are in world space already
   Bounds bounds;                         ///< world
+  Real inside = 0;                       ///< of a finite shape: rounding error by its size alone
   std::uint32_t solid = 0;               ///< its number, if it is a dielectric solid
   /// Shadow rays do not end there but look at it: translucent, or a solid that meets others, whose
   /// boundary may not be there.

@@ -69,8 +69,7 @@ Real shapeOffset(const Item& item, Vec3 object, Vec3 world) noexcept {
   constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
   const Real rounding = kSteps * epsilon *
                         std::max(maxAbsComponent(world), item.place.norm * maxAbsComponent(object));
-  const bool isEndless = item.bounds.isInfinite();
-  return rounding + (isEndless ? Real(0) : kInside * maxAbsComponent(item.bounds.size()));
+  return rounding + item.inside;
 }
 
 // By bits: what is taken over must be what would be made, and -0 is not 0.
@@ -134,6 +133,7 @@ World::Body::Body(const std::vector<Placement>& placements, const Body* before) 
     if (!item.placement.mesh) {
       item.bounds = item.placement.shape->bounds();
       if (!item.bounds.isInfinite()) item.bounds = item.place.bounds(item.bounds);
+      if (!item.bounds.isInfinite()) item.inside = kInside * maxAbsComponent(item.bounds.size());
     } else {
       item.baked = uses[item.placement.mesh] == 1;
       addTriangles(item, before);
@@ -231,12 +231,14 @@ inline void World::Body::fillTriangle(Surface& s, const Item& item, const Ray& r
 
 inline void World::Body::fillShape(Surface& s, const Item& item, const Ray& ray,
                                    const TreeHit& hit) const noexcept {
-  const Vec3 near = item.place.object(ray).at(hit.t);
-  const SurfacePoint local = item.placement.shape->surface(near, {hit.t, hit.primitive, hit.b});
-  static_cast<SurfacePoint&>(s) = item.place.world(local);
+  const Vec3 near = item.place.objectPoint(ray, hit.t);
+  SurfacePoint& point = s;
+  point = item.placement.shape->surface(near, {hit.t, hit.primitive, hit.b});
+  const Vec3 local = point.position;
+  if (!item.place.identity) point = item.place.world(point);
   s.distance = hit.t;
   s.patchUv = s.uv;
-  s.offset = shapeOffset(item, local.position, s.position);
+  s.offset = shapeOffset(item, local, s.position);
 }
 
 inline void World::Body::fill(Surface& s, const Ray& ray, const TreeHit& hit) const noexcept {

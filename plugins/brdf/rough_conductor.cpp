@@ -51,6 +51,8 @@ class RoughConductor final : public Brdf {
                                density);
   }
 
+  bool usesLobeNumber() const noexcept override { return false; }
+
   ScatterJacobian sampleDerivatives(const ScatterPoint& p,
                                     ScatterNumbers n) const noexcept override {
     const VisibleNormal v = ggx(p).sampleVisibleDerivatives(p.toPrev, n.u);
