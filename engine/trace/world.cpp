@@ -229,8 +229,8 @@ inline void World::Body::fillTriangle(Surface& s, const Item& item, const Ray& r
   s.offset = triangleOffset(item, s, extent);
 }
 
-inline void World::Body::fillShape(Surface& s, const Item& item, const Ray& ray,
-                                   const TreeHit& hit) const noexcept {
+void World::Body::fillShape(Surface& s, const Item& item, const Ray& ray,
+                            const TreeHit& hit) const noexcept {
   const Vec3 near = item.place.objectPoint(ray, hit.t);
   SurfacePoint& point = s;
   point = item.placement.shape->surface(near, {hit.t, hit.primitive, hit.b});
