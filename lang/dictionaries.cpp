@@ -94,9 +94,13 @@ Datum* Directives::placeOf(Datum& whole, const std::vector<Parser::Selector>& pa
         context_.checkElements(s.span);
       }
       auto& own = const_cast<Dictionary&>(**dictionary);
-      if (makes && own.entries.count(s.key) == 0) put(context_, own, s.key, {}, s.span);
+      const bool isLast = next + 1 == path.size();
+      if (makes && isLast && own.entries.count(s.key) == 0) put(context_, own, s.key, {}, s.span);
       const auto entry = own.entries.find(s.key);
-      if (entry == own.entries.end()) return nullptr;
+      if (entry == own.entries.end()) {
+        context_.reporter.error(s.span, "this dictionary has no entry '" + s.key + "'");
+        return nullptr;
+      }
       place = &entry->second;
       ++next;
     } else if (auto* array = std::get_if<ArrayPtr>(place); array && !s.isKey) {
@@ -119,11 +123,25 @@ Datum* Directives::placeOf(Datum& whole, const std::vector<Parser::Selector>& pa
   return place;
 }
 
-/// Whether an entry of a dictionary follows '#declare', not a new value for its name.
+/// Whether an entry of a dictionary follows '#declare', not a new value for its name. The
+/// dictionary may be an element of an array: then a '.' is behind the indices.
 bool Directives::isDictionary(const Token& name) {
   const Datum* value = context_.symbols.value(name.text);
-  const bool isEntry = stream_.peekRaw().is("[") || stream_.peekRaw().is(".");
-  return isEntry && value && std::holds_alternative<DictionaryPtr>(*value);
+  if (!value || isBroken(*value)) return false;
+  constexpr int kUsual = 32;
+  int ahead = 0;
+  const auto next = [&] { return stream_.peekRaw(ahead); };
+  if (std::holds_alternative<DictionaryPtr>(*value)) return next().is("[") || next().is(".");
+  if (!std::holds_alternative<ArrayPtr>(*value)) return false;
+  while (next().is("[")) {
+    int depth = 0;
+    do {
+      depth += next().is("[") ? 1 : next().is("]") ? -1 : 0;
+      if (next().kind == Token::Kind::end) return false;
+      if (++ahead > kUsual) context_.step(name.span);  // the others are read next, and count then
+    } while (depth > 0);
+  }
+  return ahead > 0 && next().is(".");
 }
 
 // ('#declare' | '#local') name selector { selector } '=' value [';']

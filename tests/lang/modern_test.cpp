@@ -45,6 +45,9 @@ TEST_CASE("dictionaries are values", "[lang]") {
   CHECK(valueOf("#declare D = dictionary { .in: dictionary { .a: 1 }, .list: array[2] { 3, 4 } }"
                 "#declare E = D; #declare D.in.a = 5; #declare D.list[1] = 6;",
                 "D.in.a*1000 + D.list[1]*100 + E.in.a*10 + E.list[1]") == "5614");
+  CHECK(valueOf("#declare A = array[2] { dictionary { .k: 1 }, 4 } #declare B = A;"
+                "#declare A[0].k = 5; #declare A[1] = 6;",
+                "A[0].k*100 + A[1]*10 + B[0].k") == "561");
   CHECK(valueOf("#declare dictionary = 3;", "dictionary") == "3");
 }
 
