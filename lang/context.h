@@ -32,6 +32,7 @@ struct Context {
   Symbols symbols{budget.bytes()};
   double version = 3.7;  ///< set by #version, returned by `version`; has no other effect
   std::vector<std::uint32_t> streams;  ///< states of rand(), by what seed() returned
+  int evaluating = 0;                  ///< depth of functions' trees that are evaluated or compiled
   int nesting = 0;          ///< depth of braces, parentheses and calls: bounds our own stack
   std::int64_t blocks = 0;  ///< number created so far, copies included
   Total elements =
@@ -80,6 +81,23 @@ class Nested {
   ~Nested() { --context_.nesting; }
   Nested(const Nested&) = delete;
   Nested& operator=(const Nested&) = delete;
+
+ private:
+  Context& context_;
+};
+
+/// The same in the tree of a function, which may call others.
+class Deeper {
+ public:
+  Deeper(Context& c, const Span& span) : context_(c) {
+    // An expression in parentheses takes several levels of its tree.
+    constexpr int kLevelsPerNesting = 4;
+    if (c.evaluating > c.deepest() * kLevelsPerNesting) c.stopTooDeep(span, "these functions are");
+    ++c.evaluating;
+  }
+  ~Deeper() { --context_.evaluating; }
+  Deeper(const Deeper&) = delete;
+  Deeper& operator=(const Deeper&) = delete;
 
  private:
   Context& context_;

@@ -77,9 +77,9 @@ std::optional<std::string> Directives::written(const Datum& value, const Span& s
     return {};
   }
   if (n->size == 1) return number(n->v[0]);
-  std::string s;
-  for (int i = 0; i < n->size; ++i) s += (i ? "," : "<") + number(n->v[std::size_t(i)]);
-  return s + "> ";
+  std::string s = "<";
+  for (int i = 0; i < n->size; ++i) s.append(i ? "," : "").append(number(n->v[std::size_t(i)]));
+  return s.append("> ");
 }
 
 // '#write' '(' name { [','] value } ')'

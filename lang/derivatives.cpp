@@ -43,6 +43,13 @@ Derived power(double value, const Derived& x, const Derived& y) {
   return chain(value, slope, x, moves && value != 0 ? value * std::log(x.value) : 0, y);
 }
 
+/// atan2(y, x). Far out the square of the distance would not be finite.
+Derived angle(double value, const Derived& y, const Derived& x) {
+  const double far = std::hypot(x.value, y.value);
+  const auto slope = [far](double leg) { return std::isinf(far) ? 0 : leg / far / far; };
+  return chain(value, slope(x.value), y, -slope(y.value), x);
+}
+
 /// The operand that a step passes on; null: it computes a new value.
 const Derived* chosen(Code code, const Derived* a, int n) {
   const auto less = [](const Derived& x, const Derived& y) { return x.value < y.value; };
@@ -88,9 +95,9 @@ double slopeOf(Code code, double x, double value) {
     case Code::exp:
       return value;
     case Code::ln:
-      return 1 / x;
+      return x < 0 ? NAN : 1 / x;
     case Code::log:
-      return 1 / (x * std::log(10.0));
+      return x < 0 ? NAN : 1 / (x * std::log(10.0));
     case Code::radians:
       return kHalfTurn / 180;
     case Code::sin:
@@ -128,7 +135,7 @@ Derived apply(Code code, const Derived* a, int n) {
     case Code::mod:
       return chain(value, 1, a[0], -std::trunc(x / y), a[1]);
     case Code::atan2:
-      return chain(value, y / (x * x + y * y), a[0], -x / (x * x + y * y), a[1]);
+      return angle(value, a[0], a[1]);
     case Code::pow:
       return power(value, a[0], a[1]);
     default:

@@ -7,9 +7,6 @@
 namespace vestige::lang {
 namespace {
 
-/// Levels of evaluation for each level of nesting: an expression in parentheses takes several.
-constexpr int kLevelsPerNesting = 4;
-
 /// A node of a function costs more than a token.
 constexpr std::int64_t kStepsANode = 2;
 
@@ -22,26 +19,17 @@ std::optional<bool> Evaluator::condition(const Operand& operand) {
 
 Datum Evaluator::evaluate(const Expr& e, Arguments a) {
   const Operation& o = e.operation;
-  if (depth_ > context_.deepest() * kLevelsPerNesting)
-    context_.stopTooDeep(o.span, "these functions are");
   context_.step(o.span, kStepsANode);
   if (o.kind == Operation::Kind::constant) return e.value;
   if (o.kind == Operation::Kind::parameter) return Numbers(a[std::size_t(o.slot)]);
-  ++depth_;
-  Datum result;
-  if (o.kind == Operation::Kind::choose) {
-    result = choose(e, a);
-  } else if (o.kind == Operation::Kind::series) {
-    result = series(e, a);
-  } else {
-    std::vector<Operand> operands(e.operands.size());
-    for (std::size_t i = 0; i < operands.size(); ++i)
-      if (const Expr* operand = e.operands[i].get())
-        operands[i] = {evaluate(*operand, a), operand->operation.span};
-    result = apply(o, operands);
-  }
-  --depth_;
-  return result;
+  const Deeper deeper(context_, o.span);
+  if (o.kind == Operation::Kind::choose) return choose(e, a);
+  if (o.kind == Operation::Kind::series) return series(e, a);
+  std::vector<Operand> operands(e.operands.size());
+  for (std::size_t i = 0; i < operands.size(); ++i)
+    if (const Expr* operand = e.operands[i].get())
+      operands[i] = {evaluate(*operand, a), operand->operation.span};
+  return apply(o, operands);
 }
 
 Datum Evaluator::choose(const Expr& e, Arguments a) {
@@ -114,10 +102,10 @@ Datum Evaluator::call(const Operation& o, const Function& f) {
     return r;
   }
   if (const Program* program = programForCalls(context_, f)) {
-    context_.step(o.span, program->cost * kStepsANode);
-    bool doubt = false;
-    const double x = program->run(a.data(), doubt);
-    if (!doubt) return Numbers(x);
+    Program::Run run;
+    const double x = program->run(a.data(), run);
+    context_.step(o.span, run.steps * kStepsANode);
+    if (!run.doubt) return Numbers(x);
   }
   const std::vector<double> own = a;  // inner calls take the others
   return evaluate(*f.body, own);

@@ -39,7 +39,6 @@ class Evaluator {
   Context& context_;
   Operations operations_;
   std::vector<double> arguments_;  ///< of the call that is being made
-  int depth_ = 0;
 };
 
 }  // namespace vestige::lang

@@ -69,9 +69,13 @@ class ExpressionParser::Reads {
     if (reading == Reading::syntax) return;
     parser.function_ = function;
     counters_.swap(parser.counters_);
+    std::swap(nodes_, parser.nodes_);
   }
   ~Reads() {
-    if (parser_.reading_ != Reading::syntax) counters_.swap(parser_.counters_);
+    if (parser_.reading_ != Reading::syntax) {
+      counters_.swap(parser_.counters_);
+      std::swap(nodes_, parser_.nodes_);
+    }
     parser_.reading_ = reading_, parser_.function_ = function_;
   }
   Reads(const Reads&) = delete;
@@ -82,22 +86,28 @@ class ExpressionParser::Reads {
   Reading reading_;
   const Function* function_;
   std::vector<const Name*> counters_;
+  std::int64_t nodes_ = 0;
 };
 
 class ExpressionParser::Operands {
  public:
-  explicit Operands(ExpressionParser& parser) : stack_(parser.stack_), first_(stack_.size()) {}
+  explicit Operands(ExpressionParser& parser)
+      : budget_(parser.context_.budget), stack_(parser.stack_), first_(stack_.size()) {}
   ~Operands() {
     while (stack_.size() > first_) stack_.pop_back();
   }
   Operands(const Operands&) = delete;
   Operands& operator=(const Operands&) = delete;
-  void add(Operand operand) { stack_.push_back(std::move(operand)); }
+  void add(Operand operand) {
+    budget_.reserveOne(operand.span, stack_);
+    stack_.push_back(std::move(operand));
+  }
   std::size_t size() const { return stack_.size() - first_; }
   /// Valid until the next one is added, by anybody.
   std::span<Operand> all() { return std::span(stack_).subspan(first_); }
 
  private:
+  Budget& budget_;
   std::vector<Operand>& stack_;
   std::size_t first_;
 };
@@ -134,10 +144,8 @@ void ExpressionParser::functionBody(Function& function) {
   if (!stream_.accept("{")) unexpected("'{' before the function's expression");
   const With mode(*this, {true, false, -1});
   const Reads reads(*this, Reading::trees, &function);
-  const std::int64_t before = std::exchange(nodes_, 0);
   function.body = leaf(expression());
   function.bytes = context_.budget.take(open, std::size_t(nodes_) * kNodeBytes);
-  nodes_ = before;
   expect("}", open, "{");
 }
 
@@ -211,15 +219,19 @@ Operand ExpressionParser::tree(const Operation& o, std::span<Operand> operands) 
   }
   if (e->depth > kDeepestFunction)
     context_.reporter.syntaxError(o.span, "this function's expression is too long");
-  constexpr std::int64_t kCheckEvery = 1024;
-  if (++nodes_ % kCheckEvery == 0) context_.budget.need(o.span, double(nodes_) * kNodeBytes);
+  countNode(o.span);
   return {{}, o.span, std::move(e)};
+}
+
+void ExpressionParser::countNode(const Span& span) {
+  constexpr std::int64_t kCheckEvery = 1024;
+  if (++nodes_ % kCheckEvery == 0) context_.budget.need(span, double(nodes_) * kNodeBytes);
 }
 
 /// The tree of an operand; of a value, a new one.
 ExprPtr ExpressionParser::leaf(Operand&& operand) {
   if (operand.tree) return std::move(operand.tree);
-  ++nodes_;
+  countNode(operand.span);
   auto e = std::make_unique<Expr>();
   e->operation.span = operand.span;
   e->value = std::move(operand.value);
@@ -275,8 +287,9 @@ Operand ExpressionParser::branch(bool isTaken) {
 Operand ExpressionParser::binary(Level least) {
   Operand left = firstOperand(least);
   for (;;) {
-    // No operator can follow a string or a block, so a directive there may have to wait.
-    const Op op = operatorOf(left.mayCount() ? operatorAhead().sign : stream_.rawSign());
+    // Behind a string or a block a directive may have to wait.
+    const bool looksAhead = left.mayCount() || isEnclosed();
+    const Op op = operatorOf(looksAhead ? operatorAhead().sign : stream_.rawSign());
     const Level level = levelOf(op);
     if (op == Op::none || level < least) return left;
     const Operation o{.kind = Operation::Kind::binary, .op = op, .wordSpan = stream_.next().span};
@@ -477,7 +490,6 @@ Operand ExpressionParser::call(const Token& name, const Datum& function) {
   const bool takesVectors = builtin && builtin->takesVectors;
   const With mode(*this, {!takesVectors, false, -1});
   while (!stream_.peek().is(")")) {
-    context_.budget.need(name.span, double(operands.size() * sizeof(Operand)));
     operands.add(expression());
     if (!stream_.accept(",") && !begins(stream_.peek())) break;
   }
@@ -493,7 +505,11 @@ Operand ExpressionParser::call(const Token& name, const Datum& function) {
 Operand ExpressionParser::definedTest(const Token& word) {
   const Span open = stream_.peekRaw().span;
   if (!stream_.acceptRaw("(")) unexpected("'(' after 'defined'");
-  const bool isKnown = isDefined(stream_.nextRaw());
+  const Token name = stream_.nextRaw();
+  if (!name.isName())
+    context_.reporter.syntaxError(
+        name.span, "expected a name after 'defined(', found " + describe(name, context_.sources));
+  const bool isKnown = isDefined(name);
   if (!stream_.acceptRaw(")")) expect(")", open, "(");
   return {Numbers(isKnown ? 1 : 0), context_.sources.join(word.span, stream_.last())};
 }

@@ -102,7 +102,11 @@ class ExpressionParser {
   /// The result of a step.
   Operand made(Operation o, std::span<Operand> operands);
   Operand tree(const Operation& o, std::span<Operand> operands);
+  void countNode(const Span& span);
   ExprPtr leaf(Operand&& operand);
+  /// Between parentheses macros can be expanded to look for an operator: a directive that waits
+  /// is never behind the value.
+  bool isEnclosed() const { return mode_.comparisons && !mode_.endsAtDirective; }
   bool isBuilding() const { return reading_ == Reading::trees; }
   const Datum* declared(const Token& name) const { return context_.symbols.value(name.text); }
 

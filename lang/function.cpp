@@ -18,39 +18,7 @@ constexpr int kDeepestCall = 16;              ///< of functions within functions
 constexpr std::int64_t kDearest = 1'000'000;  ///< steps of one evaluation, inner calls included
 
 Code codeOf(const Operation& o) {
-  switch (o.op) {
-    case Op::plus:
-      return Code::plus;
-    case Op::minus:
-      return o.kind == Kind::unary ? Code::negate : Code::minus;
-    case Op::times:
-      return Code::times;
-    case Op::over:
-      return Code::over;
-    case Op::modulo:
-      return Code::modulo;
-    case Op::less:
-      return Code::less;
-    case Op::lessEqual:
-      return Code::lessEqual;
-    case Op::equal:
-      return Code::equal;
-    case Op::greaterEqual:
-      return Code::greaterEqual;
-    case Op::greater:
-      return Code::greater;
-    case Op::notEqual:
-      return Code::notEqual;
-    case Op::both:
-      return Code::both;
-    case Op::either:
-      return Code::either;
-    case Op::invert:
-      return Code::invert;
-    case Op::none:
-      break;
-  }
-  return Code::unknown;
+  return o.kind == Kind::unary && o.op == Op::minus ? Code::negate : Program::codeOf(o.op);
 }
 
 class Compiler {
@@ -72,8 +40,9 @@ class Compiler {
                                        " parameters, found " + std::to_string(f.parameters.size()));
       return nullptr;
     }
-    auto made = std::make_shared<Program>();
+    const auto made = std::make_shared<Program>();
     made->arity_ = int(f.parameters.size());
+    made->bytes = context_.budget.take(f.body->operation.span, sizeof(Program));
     ++level_;
     const std::vector<double> around = std::exchange(counters_, {});
     const bool isWhole = add(*made, *f.body, 0);
@@ -105,6 +74,7 @@ class Compiler {
   bool add(Program& p, const Expr& e, int below) {
     const Operation& o = e.operation;
     context_.step(o.span);
+    const Deeper deeper(context_, o.span);
     if (below >= Program::kStack) return fail(o.span, "this function's expression is too long");
     switch (o.kind) {
       case Kind::parameter:
@@ -116,7 +86,7 @@ class Compiler {
       case Kind::unary:
       case Kind::binary:
         if (o.op == Op::plus && e.operands.size() == 1) return add(p, *e.operands[0], below);
-        return addCall(p, e, below, {codeOf(o)});
+        return addCall(p, e, below, {codeOf(o)});  // !, -, and what has two operands
       case Kind::choose:
         return addChoice(p, e, below);
       case Kind::series:
@@ -175,9 +145,9 @@ class Compiler {
   std::optional<double> counted(const Expr& e, int arity) {
     Program p;
     p.arity_ = arity;
-    bool doubt = false;
+    Program::Run notes;
     if (!add(p, e, 0)) return {};
-    return p.run(nullptr, doubt);
+    return p.run(nullptr, notes);
   }
 
   bool addBuiltin(Program& p, const Expr& e, int below) {
@@ -223,6 +193,7 @@ class Compiler {
       return fail(e.operation.span,
                   "a function that a block takes is made of numbers: vectors, colours and "
                   "arrays cannot depend on its parameters");
+    const Reporter::Muted muted(context_.reporter, !use_);
     const Datum d = Evaluator(context_).evaluate(e);
     const Numbers* n = numbers(d);
     if (isBroken(d)) return false;
@@ -234,7 +205,7 @@ class Compiler {
   }
 
   void pushNumber(Program& p, const Operation& o, double x) {
-    context_.budget.reserveOne(o.span, p.constants);
+    reserveOne(p, o, p.constants);
     p.constants.push_back(x);
     push(p, o, {Code::constant, 0, std::uint32_t(p.constants.size() - 1)});
   }
@@ -248,9 +219,19 @@ class Compiler {
   }
 
   void push(Program& p, const Operation& o, Program::Step step) {
-    context_.budget.reserveOne(o.span, p.steps);
+    reserveOne(p, o, p.steps);
     p.steps.push_back(step);
     ++p.cost;
+  }
+
+  /// Space for one more element, which counts as long as the program lives.
+  template <class Vector>
+  void reserveOne(Program& p, const Operation& o, Vector& v) {
+    if (v.size() < v.capacity()) return;
+    const std::size_t wanted = v.size() + v.size() / 2 + 4;
+    context_.budget.need(o.span, double(wanted * sizeof v[0]));
+    p.bytes.grow(std::int64_t((wanted - v.capacity()) * sizeof v[0]));
+    v.reserve(wanted);
   }
 
   Context& context_;

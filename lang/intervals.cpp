@@ -22,7 +22,9 @@ struct Range {
   bool mayBeNaN = false;  ///< besides the numbers between low and high
 
   Range() = default;
-  explicit Range(double x) : low(x), high(x) {}
+  explicit Range(double x) : low(x), high(x) {
+    if (std::isnan(x)) low = -kInfinity, high = kInfinity, mayBeNaN = true;
+  }
   Range(double l, double h) : low(l), high(h) {}
   bool isPoint() const { return low == high; }
   bool holds(double x) const { return low <= x && x <= high; }
@@ -131,9 +133,9 @@ Range power(const Range& x, const Range& y) {
   const auto f = [](double a, double b) { return std::pow(a, b); };
   const bool isWhole = y.isPoint() && y.low == std::trunc(y.low) && std::abs(y.low) < 1e9;
   const bool isOdd = isWhole && std::fmod(y.low, 2) != 0;
+  if (x.holds(0) && y.low < 0) return kAll;  // -0, too, has a power: minus infinity
   if (x.low >= 0) return widened(corners(x, y, f));
-  if (isOdd && (y.low > 0 || !x.holds(0))) return widened(corners(x, y, f));
-  if (isOdd) return kAll;
+  if (isOdd) return widened(corners(x, y, f));
   Range r = widened(corners(magnitude(x), y, f));
   if (!isWhole) r.low = -r.high;  // values at whole exponents only, of either sign
   return r;

@@ -5,6 +5,7 @@
 
 #include "lang/builtins.h"
 #include "lang/dictionary.h"
+#include "lang/program_steps.h"
 #include "lang/spline.h"
 
 namespace vestige::lang {
@@ -16,25 +17,6 @@ double decodeSrgb(double x) {
 }
 
 double truth(bool b) { return b ? 1 : 0; }
-
-/// POV-Ray's relations: equal within kTruth; < and > are strict without tolerance.
-double related(Op op, double x, double y) {
-  const bool equal = x == y || std::abs(x - y) <= kTruth;
-  switch (op) {
-    case Op::equal:
-      return truth(equal);
-    case Op::notEqual:
-      return truth(!equal);
-    case Op::less:
-      return truth(x < y);
-    case Op::lessEqual:
-      return truth(x <= y || equal);
-    case Op::greater:
-      return truth(x > y);
-    default:
-      return truth(x >= y || equal);
-  }
-}
 
 /// Weights of `.gray`, POV-Ray's.
 double grey(const Numbers& n) { return 0.297 * n.v[0] + 0.589 * n.v[1] + 0.114 * n.v[2]; }
@@ -115,25 +97,11 @@ Datum Operations::unary(const Operation& o, const Operand& operand) {
 }
 
 double Operations::applied(const Operation& o, double x, double y) {
-  switch (o.op) {
-    case Op::plus:
-      return x + y;
-    case Op::minus:
-      return x - y;
-    case Op::times:
-      return x * y;
-    case Op::both:
-      return truth(isTrue(x) && isTrue(y));
-    case Op::either:
-      return truth(isTrue(x) || isTrue(y));
-    case Op::over:
-    case Op::modulo:
-      if (y != 0) return o.op == Op::over ? x / y : std::fmod(x, y);
-      context_.reporter.warning(o.wordSpan, "division by zero");
-      return HUGE_VAL;  // POV-Ray's result, for 0/0 too
-    default:
-      return related(o.op, x, y);
-  }
+  const double operands[] = {x, y};
+  bool isByZero = false;
+  const double r = applyStep(Program::codeOf(o.op), operands, 2, isByZero);
+  if (isByZero) context_.reporter.warning(o.wordSpan, "division by zero");
+  return r;
 }
 
 Datum Operations::binary(const Operation& o, const Operand& left, const Operand& right) {
@@ -152,7 +120,7 @@ Datum Operations::binary(const Operation& o, const Operand& left, const Operand&
 Datum Operations::relation(const Operation& o, const TextPtr& left, const Operand& right) {
   if (const auto* t = std::get_if<TextPtr>(&right.value)) {
     context_.budget.copy(o.span, std::min(left->size(), (*t)->size()));
-    return Numbers(related(o.op, left->compare(**t), 0));
+    return Numbers(applied(o, left->compare(**t), 0));
   }
   if (!isBroken(right.value))
     context_.reporter.error(

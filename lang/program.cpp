@@ -186,7 +186,44 @@ Code Program::codeOf(std::string_view builtin) {
   return found == all.end() ? Code::unknown : found->second;
 }
 
-double Program::run(const double* args, bool& doubt) const noexcept {
+Code Program::codeOf(Op op) {
+  switch (op) {
+    case Op::plus:
+      return Code::plus;
+    case Op::minus:
+      return Code::minus;
+    case Op::times:
+      return Code::times;
+    case Op::over:
+      return Code::over;
+    case Op::modulo:
+      return Code::modulo;
+    case Op::less:
+      return Code::less;
+    case Op::lessEqual:
+      return Code::lessEqual;
+    case Op::equal:
+      return Code::equal;
+    case Op::greaterEqual:
+      return Code::greaterEqual;
+    case Op::greater:
+      return Code::greater;
+    case Op::notEqual:
+      return Code::notEqual;
+    case Op::both:
+      return Code::both;
+    case Op::either:
+      return Code::either;
+    case Op::invert:
+      return Code::invert;
+    case Op::none:
+      break;
+  }
+  return Code::unknown;
+}
+
+double Program::run(const double* args, Run& notes) const noexcept {
+  notes.steps += std::int64_t(steps.size());
   double stack[kStack];
   double* top = stack;  // one past the last number
   const Step* const first = steps.data();
@@ -212,17 +249,18 @@ double Program::run(const double* args, bool& doubt) const noexcept {
       case Code::skipIf:
         if (isTrue(top[s->code == Code::skipIf ? -2 : -1]) == (s->code == Code::skipIf)) {
           *top++ = 0;
+          notes.steps -= first + s->index - 1 - s;
           s = first + s->index - 1;
         }
         break;
       case Code::inner:
         top -= s->count;
-        *top = inner[s->index]->run(top, doubt);
+        *top = inner[s->index]->run(top, notes);
         ++top;
         break;
       default:
         top -= s->count;
-        *top = applyStep(s->code, top, s->count, doubt);
+        *top = applyStep(s->code, top, s->count, notes.doubt);
         ++top;
     }
   }

@@ -9,6 +9,9 @@
 
 #include <vestige/function.h>
 
+#include "lang/share.h"
+#include "lang/words.h"
+
 namespace vestige::lang {
 
 class Program final : public vestige::Function {
@@ -79,16 +82,22 @@ class Program final : public vestige::Function {
 
   /// The code of a built-in function; `unknown` if it is not one of numbers.
   static Code codeOf(std::string_view builtin);
+  /// The code of an operator between two numbers.
+  static Code codeOf(Op op);
 
   int arity() const noexcept override { return arity_; }
   std::uint64_t fingerprint() const noexcept override { return print_; }
   double eval(std::span<const double> args) const noexcept override {
-    bool doubt = false;
-    return run(args.data(), doubt);
+    Run notes;
+    return run(args.data(), notes);
   }
-  /// The value. `doubt` is set where the language has a warning or an error, as for 1/0: the tree
-  /// must be evaluated to report it.
-  double run(const double* args, bool& doubt) const noexcept;
+  /// What one evaluation leaves behind besides its value.
+  struct Run {
+    std::int64_t steps = 0;  ///< that were executed, those of inner programs included
+    /// The language has a warning or an error, as for 1/0: the tree must be evaluated to report it.
+    bool doubt = false;
+  };
+  double run(const double* args, Run& notes) const noexcept;
 
   void evalLanes(const double* args, double* values) const noexcept override;
   Interval bounds(std::span<const Interval> args) const noexcept override;
@@ -101,6 +110,7 @@ class Program final : public vestige::Function {
   std::vector<Step> steps;
   std::vector<double> constants;
   std::vector<std::shared_ptr<const Program>> inner;
+  Share bytes;  ///< of the steps and constants
   int arity_ = 0;
   int depth = 1;          ///< of programs within programs
   std::int64_t cost = 0;  ///< steps of one evaluation, those of inner programs included

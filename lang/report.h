@@ -27,8 +27,25 @@ class Reporter {
   }
   void withdraw() { offered_.clear(); }
 
+  /// During its lifetime errors and warnings are discarded; a limit still stops the reading.
+  class Muted {
+   public:
+    explicit Muted(Reporter& reporter, bool isMuted = true)
+        : reporter_(reporter), before_(reporter.isMuted_) {
+      reporter.isMuted_ |= isMuted;
+    }
+    ~Muted() { reporter_.isMuted_ = before_; }
+    Muted(const Muted&) = delete;
+    Muted& operator=(const Muted&) = delete;
+
+   private:
+    Reporter& reporter_;
+    bool before_;
+  };
+
   /// Reports an error. The same message at the same place, as in a loop, is reported once.
   Diagnostic& error(const Span& span, const std::string& message) {
+    if (isMuted_) return discarded();
     const Edits offered = std::move(offered_);
     offered_.clear();
     if (!isNew(span, message)) {
@@ -46,6 +63,7 @@ class Reporter {
     return diagnostics_.error(span, shortened(message));
   }
   Diagnostic& warning(const Span& span, const std::string& message) {
+    if (isMuted_) return discarded();
     const Edits offered = std::move(offered_);
     offered_.clear();
     if (warnings_ >= kMostWarnings || !isNew(span, message)) return discarded();
@@ -58,6 +76,7 @@ class Reporter {
     throw SyntaxError{};
   }
   [[noreturn]] void stop(const Span& span, const std::string& message) {
+    isMuted_ = false;
     error(span, message);
     throw Stop{};
   }
@@ -83,6 +102,7 @@ class Reporter {
   Edits& edits_;
   Edits offered_;  ///< none or one
   int mostErrors_;
+  bool isMuted_ = false;
   int warnings_ = 0;
   int repeats_ = 0;
   std::unordered_set<std::size_t> seen_;

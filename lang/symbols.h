@@ -91,7 +91,10 @@ class Symbols {
   }
   /// #undef: the nearest binding; false if there is none.
   bool undefine(const Name* name) {
-    if (!nearestOf(name)) return false;
+    const Binding* nearest = nearestOf(name);
+    if (!nearest) return false;
+    // Most often the latest one: a loop that declares and forgets leaves nothing behind.
+    if (auto& bound = tables_[nearest->table]; bound.back() == name->id) bound.pop_back();
     drop(stacks_[name->id]);
     return true;
   }

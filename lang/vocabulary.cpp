@@ -150,7 +150,7 @@ bool isTransformWord(const std::string& word) { return isTransform(wordOf(word))
 
 bool isExpressionWord(const std::string& word) {
   const Word w = wordOf(word);
-  return findBuiltin(word) || (w >= Word::rgb && w <= Word::function);
+  return findBuiltin(word) || (w >= Word::rgb && w <= Word::function && w != Word::grey);
 }
 
 std::string orList(const std::vector<std::string>& words) {

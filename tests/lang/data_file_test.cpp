@@ -112,7 +112,7 @@ TEST_CASE("#write leaves its folder on no path", "[lang]") {
   fs::create_directory(folder.path / "out/sub");
   const int before = folder.files();
   const std::string outside = (folder.path / "made.txt").string();
-  for (const std::string name :
+  for (const std::string& name :
        {std::string("../made.txt"), std::string("sub/../../made.txt"), outside,
         std::string("up/made.txt"), std::string("up/secret.txt"), std::string("link.txt"),
         std::string("dangling.txt"), std::string("sub"), std::string("."), std::string("none/a"),

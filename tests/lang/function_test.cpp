@@ -93,4 +93,53 @@ TEST_CASE("a choice evaluates the branch that is taken, and reads the other", "[
   CHECK(debugged("", "str(<1, 2> ? 1 : 2, 0, 0)").find("the condition of '?'") == 1);
 }
 
+TEST_CASE("functions that call each other through constants are bounded", "[lang]") {
+  std::string text =
+      "#declare F = function(x) { x } #for (I, 1, 3500) "
+      "#declare F = function(x) { vlength(<F(1), 0, 0>) + x } #end ";
+  const std::string found = messages(text + "#declare A = F(1);");
+  CHECK(found.find("these functions are nested more than") != std::string::npos);
+}
+
+TEST_CASE("a branch that is not taken reports nothing", "[lang]") {
+  const std::string f = "#declare F = function(x) { x > 0 ? 1 : strlen(3) } ";
+  CHECK(debugged(f, "str(F(1), 0, 0)") == "1");
+  CHECK(debugged(f, "str(F(-1), 0, 0)").find("strlen() takes a string") != std::string::npos);
+}
+
+/// Without the count of what was executed: 3 to the 9th steps each, a hundred times.
+TEST_CASE("a call costs the steps that it executes", "[lang]") {
+  std::string text = "#declare F0 = function(x) { x } ";
+  for (int i = 1; i <= 9; ++i) {
+    const std::string inner = "F" + std::to_string(i - 1);
+    text += "#declare F" + std::to_string(i) + " = function(x) { x > 100 ? " + inner + "(x) + " +
+            inner + "(x + 1) + " + inner + "(x + 2) : 1 } ";
+  }
+  Options few;
+  few.limits.expandedTokens = 300'000;
+  CHECK(read(text + "#for (I, 1, 100) #declare A = F9(I); #end", few).diagnostics.errors() == 0);
+}
+
+TEST_CASE("programs of functions that are forgotten leave no memory behind", "[lang]") {
+  Options small;
+  small.limits.memory = 8 << 20;
+  const Result r =
+      read("#for (I, 1, 100000) #declare F = function(x) { x*x + 2*x + 1 } #declare A = F(I); #end",
+           small);
+  CHECK(r.diagnostics.errors() == 0);
+}
+
+TEST_CASE("the arguments of nested calls are counted together", "[lang]") {
+  Options small;
+  small.limits.memory = 4 << 20;
+  std::string text = "#declare A = ";
+  for (int i = 0; i < 50; ++i) {
+    text += "max(";
+    for (int k = 0; k < 1000; ++k) text += "1,";
+  }
+  const Result r = read(text, small);
+  REQUIRE(r.diagnostics.errors() == 1);
+  CHECK(r.diagnostics.list()[0].message.find("--max-memory") != std::string::npos);
+}
+
 }  // namespace vestige::lang::test

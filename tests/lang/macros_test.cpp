@@ -157,4 +157,11 @@ TEST_CASE("the library's files can be read together", "[lang]") {
   CHECK(r.scene.blocks[1].child("brdf")->find("diffuse")->v[0] == Approx(0.5));
 }
 
+TEST_CASE("a macro between parentheses may be an operator, behind strings too", "[lang]") {
+  const SceneDesc s = scene(
+      "#macro Eq() = #end #declare A = 0;"
+      "#if (concat(\"a\", \"b\") Eq() \"ab\") #declare A = 1; #end sphere { A, 1 }");
+  CHECK(s.blocks[0].find("centre")->v[0] == 1);
+}
+
 }  // namespace vestige::lang::test

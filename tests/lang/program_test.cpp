@@ -16,7 +16,10 @@ namespace {
 using FunctionPtr = std::shared_ptr<const vestige::Function>;
 
 FunctionPtr functionOf(const std::string& body) {
-  const SceneDesc s = scene("#declare F = function { " + body + " }; isosurface { function F }");
+  const SceneDesc s = scene(
+      "#declare Inf = pow(10, 400); #declare NaN = Inf - Inf;"
+      "#declare F = function { " +
+      body + " }; isosurface { function F }");
   return s.blocks[0].find("function")->function;
 }
 
@@ -49,8 +52,9 @@ class Expressions {
 
  private:
   std::string leaf() {
-    static const char* const all[] = {"x", "y", "z", "0", "1", "2", "0.5", "-1.5", "pi"};
-    return all[below(9)];
+    static const char* const all[] = {"x",  "y",  "z",   "0", "1", "2", "0",   "0.5",    "-1.5",
+                                      "-3", "pi", "NaN", "x", "y", "z", "Inf", "(-Inf)", "(-0)"};
+    return all[below(18)];
   }
   std::string call(const std::string& name, int depth) {
     const Builtin& b = *findBuiltin(name);
