@@ -111,7 +111,7 @@ TEST_CASE("a branch that is not taken reports nothing", "[lang]") {
 TEST_CASE("a call costs the steps that it executes", "[lang]") {
   std::string text = "#declare F0 = function(x) { x } ";
   for (int i = 1; i <= 9; ++i) {
-    const std::string inner = "F" + std::to_string(i - 1);
+    const std::string inner = std::string("F").append(std::to_string(i - 1));
     text += "#declare F" + std::to_string(i) + " = function(x) { x > 100 ? " + inner + "(x) + " +
             inner + "(x + 1) + " + inner + "(x + 2) : 1 } ";
   }
