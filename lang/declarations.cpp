@@ -12,7 +12,7 @@ namespace vestige::lang {
 Parser::Declared Parser::value(ExpressionParser::Place place) {
   const Token t = stream_.peek();
   const bool isName = t.kind == Token::Kind::name;
-  if (isName && t.isWord("transform")) {
+  if (isName && t.word() == Word::transform) {
     Datum a = context_.budget.transform(t.span, transform());
     return {std::move(a), context_.sources.join(t.span, stream_.last())};
   }
@@ -21,8 +21,8 @@ Parser::Declared Parser::value(ExpressionParser::Place place) {
     const Span span = declared->span;
     return {BlockPtr(std::move(declared)), span};
   }
-  if (isName && t.isWord("function")) return function();
-  if (isName && t.isWord("array")) return array();
+  if (isName && t.word() == Word::function) return function();
+  if (isName && t.word() == Word::array) return array();
   if (isName && t.isWord("dictionary") && !context_.symbols.value(t.text)) return dictionary();
   if (t.word() == Word::spline) {
     SplinePtr s = spline();
@@ -37,13 +37,13 @@ Parser::Declared Parser::value(ExpressionParser::Place place) {
 //            | 'transform' (name | '{' ... '}')
 Affine Parser::transform() {
   const Token word = stream_.next();
-  if (word.isWord("matrix")) return matrix();
-  if (word.isWord("transform")) return transformBlock();
+  if (word.word() == Word::matrix) return matrix();
+  if (word.word() == Word::transform) return transformBlock();
   Span span;
   const auto v = transformVector(*word.text, span);
   if (!v) return {};
-  if (word.isWord("translate")) return translation(*v);
-  if (word.isWord("rotate")) return rotation(*v);
+  if (word.word() == Word::translate) return translation(*v);
+  if (word.word() == Word::rotate) return rotation(*v);
   if (v->at(0) == 0 || v->at(1) == 0 || v->at(2) == 0)
     context_.reporter.warning(span, "a scale of 0 would flatten everything: 1 is taken instead");
   return scaling(*v);

@@ -98,7 +98,7 @@ class ExpressionParser::Operands {
   }
   Operands(const Operands&) = delete;
   Operands& operator=(const Operands&) = delete;
-  void add(Operand operand) {
+  void add(Operand&& operand) {
     budget_.reserveOne(operand.span, stack_);
     stack_.push_back(std::move(operand));
   }
@@ -156,7 +156,7 @@ bool ExpressionParser::begins(const Token& t) const {
   if (!t.isName()) return false;
   return declared(t) || t.text->builtin || isColour(t.word()) || t.word() == Word::defined ||
          t.word() == Word::sum || t.word() == Word::prod || t.word() == Word::local ||
-         t.isWord("global") || isSetting(t.word()) || !isBroken(constantOf(t.word(), 0));
+         t.word() == Word::global || isSetting(t.word()) || !isBroken(constantOf(t.word(), 0));
 }
 
 void ExpressionParser::expect(const char* sign, const Span& open, const char* opener) {

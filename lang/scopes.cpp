@@ -6,7 +6,7 @@ namespace vestige::lang {
 
 /// If `name` is local or global in front of a '.': the table. `name` becomes the name behind it.
 std::optional<std::size_t> ExpressionParser::scope(Token& name) {
-  const bool isGlobal = name.isWord("global");
+  const bool isGlobal = name.word() == Word::global;
   if (!isGlobal && name.word() != Word::local) return {};
   if (declared(name) || stream_.rawSign() != signCode(".")) return {};
   stream_.nextRaw();

@@ -59,6 +59,7 @@ enum class Word : std::uint8_t {
   scale,
   matrix,
   transform,
+  global,
   declare,
   local,
   undef,
