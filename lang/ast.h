@@ -69,9 +69,10 @@ struct Expr {
 /// `function(a, b) { a*b + 1 }`, or `function { transform { T } }` with three parameters.
 struct Function {
   std::vector<const Name*> parameters;
-  ExprPtr body;                ///< null: `transform`
-  Affine transform;            ///< gives a vector
-  SplinePtr spline = nullptr;  ///< the same, of one argument
+  std::vector<Span> declared = {};  ///< of the parameters; empty unless an observer needs it
+  ExprPtr body;                     ///< null: `transform`
+  Affine transform;                 ///< gives a vector
+  SplinePtr spline = nullptr;       ///< the same, of one argument
   Share bytes = {};
   mutable std::shared_ptr<const Program> program = nullptr;  ///< made at the first use
   mutable bool isTree = false;  ///< it has no program: its expression is not one of numbers

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "lang/budget.h"
+#include "lang/events.h"
 #include "lang/lang.h"
 #include "lang/lexer.h"
 #include "lang/report.h"
@@ -30,6 +31,7 @@ struct Context {
   Budget budget;
   Names names{budget.bytes()};
   Symbols symbols{budget.bytes()};
+  Events events{options.observer, symbols};
   double version = 3.7;  ///< set by #version, returned by `version`; has no other effect
   std::vector<std::uint32_t> streams;  ///< states of rand(), by what seed() returned
   int evaluating = 0;                  ///< depth of functions' trees that are evaluated or compiled

@@ -20,6 +20,28 @@ void Directives::jumpBehind(std::uint32_t index) {
   stream_.drop();
 }
 
+/// The text from here up to that directive is not read; returns its index.
+std::uint32_t Directives::skipTo(std::uint32_t part) {
+  const Frame& f = stream_.frame();
+  context_.events.skipped(*f.list, f.at, part, f.via);
+  return part;
+}
+
+/// Leaves the construct of this part: neither the rest of the part being read nor the parts behind
+/// it are read.
+void Directives::skipParts(std::uint32_t part) {
+  const auto& tokens = stream_.frame().list->tokens;
+  const std::uint32_t last = endOf(part);
+  while (part < last && context_.events.areWanted()) {
+    part = tokens[part].jump;
+    if (part < stream_.frame().at) continue;  // it was read
+    context_.step(stream_.frame().token(part).span);
+    skipTo(part);
+    jumpBehind(part);
+  }
+  jumpBehind(last);
+}
+
 /// Recovers from an error in the head of a construct: continues behind it, if its text is still
 /// being read.
 void Directives::abandon(std::uint32_t first, std::size_t frames) {
@@ -79,7 +101,7 @@ void Directives::ifBranch(const Token& directive) {
       stream_.frame().open.push_back({OpenDirective::Kind::branch, first});
       return;
     }
-    part = tokens[part].jump;
+    part = skipTo(tokens[part].jump);
     jumpBehind(part);
     if (tokens[part].kind != Token::Kind::directive || *tokens[part].text == "end") return;
     word = *tokens[part].text;
@@ -97,7 +119,7 @@ void Directives::whileLoop(const Token&) {
   if (isTrue)
     stream_.frame().open.push_back({OpenDirective::Kind::whileLoop, first});
   else
-    jumpBehind(endOf(first));
+    jumpBehind(skipTo(endOf(first)));
 }
 
 bool Directives::testWhile(std::uint32_t first) {
@@ -146,10 +168,11 @@ void Directives::forLoop(const Token& directive) {
                        bounds[2],
                        stream_.frame().at};
     *loop.counter = {Numbers(bounds[0]), name.span};
+    context_.events.declared(name, loop.counter->value);
     if (isWithin(loop, directive.span))
       stream_.frame().open.push_back(std::move(loop));
     else
-      jumpBehind(endOf(first));
+      jumpBehind(skipTo(endOf(first)));
   } catch (const SyntaxError&) {
     abandon(first, depth);
   }
@@ -178,7 +201,7 @@ void Directives::choice(const Token&) {
     const auto x = parser_.expressions().condition();
     for (std::uint32_t part = x ? tokens[first].jump : endOf(first);; part = tokens[part].jump) {
       if (stream_.frames().size() != depth) return;
-      jumpBehind(part);
+      jumpBehind(skipTo(part));
       if (tokens[part].kind != Token::Kind::directive || *tokens[part].text == "end") return;
       if (!caseMatches(*tokens[part].text, *x)) continue;
       if (stream_.frames().size() == depth)
@@ -220,7 +243,7 @@ void Directives::nextPart(const Token& directive) {
   if (!isOpen(part)) throw SyntaxError{};  // already reported: skips what follows it
   if (open.back().kind != OpenDirective::Kind::choice) {
     open.pop_back();
-    jumpBehind(endOf(part));
+    skipParts(part);
     return;
   }
   if (*directive.text == "else") {
@@ -256,7 +279,10 @@ void Directives::leave(const Token& directive) {
     const OpenDirective top = f.open.back();
     f.open.pop_back();
     if (top.kind == OpenDirective::Kind::branch) continue;
-    jumpBehind(endOf(top.first));
+    if (top.kind == OpenDirective::Kind::choice)
+      skipParts(top.first);
+    else
+      jumpBehind(endOf(top.first));
     return;
   }
   if (f.kind == Frame::Kind::macro)

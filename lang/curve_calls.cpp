@@ -28,10 +28,9 @@ Operand ExpressionParser::splineCall(Operand of) {
     stream_.next();
   }
   expect(")", open, "(");
-  return made({.kind = Operation::Kind::spline,
-               .word = kind,
-               .span = context_.sources.join(begin, stream_.last()),
-               .wordSpan = open},
+  const Span whole = context_.sources.join(begin, stream_.last());
+  if (context_.events.areWanted()) context_.events.call(context_.sources.excerpt(begin), whole);
+  return made({.kind = Operation::Kind::spline, .word = kind, .span = whole, .wordSpan = open},
               operands);
 }
 
@@ -39,13 +38,21 @@ Operand ExpressionParser::splineCall(Operand of) {
 std::optional<int> ExpressionParser::slotOf(const Name* name) const {
   if (!function_) return {};
   const auto& parameters = function_->parameters;
-  const auto placeIn = [name](const auto& all) {
-    return int(std::find(all.begin(), all.end(), name) - all.begin());
-  };
-  const int counter = placeIn(counters_), parameter = placeIn(parameters);
+  const int counter = int(std::find_if(counters_.begin(), counters_.end(),
+                                       [name](const Counter& c) { return c.name == name; }) -
+                          counters_.begin());
+  const int parameter =
+      int(std::find(parameters.begin(), parameters.end(), name) - parameters.begin());
   if (counter < int(counters_.size())) return int(parameters.size()) + counter;
   if (parameter < int(parameters.size())) return parameter;
   return {};
+}
+
+/// Nowhere for a parameter that has its name without being declared: x, y, z.
+Span ExpressionParser::declarationOf(int slot) const {
+  const auto at = std::size_t(slot), parameters = function_->parameters.size();
+  if (at >= parameters) return counters_[at - parameters].declared;
+  return at < function_->declared.size() ? function_->declared[at] : Span{};
 }
 
 // series := ('sum' | 'prod') '(' counter ',' from ',' to ',' body ')'
@@ -57,7 +64,7 @@ Operand ExpressionParser::series(const Token& word) {
   const Nested nested(context_, word.span);
   const Span open = stream_.peek().span;
   if (!stream_.accept("(")) unexpected("'(' after '" + *word.text + "'");
-  const Name* name = counter();
+  const Token name = counter();
   const With mode(*this, {true, false, -1});
   Operand operands[3];
   for (int i = 0; i < 3; ++i) {
@@ -65,7 +72,7 @@ Operand ExpressionParser::series(const Token& word) {
       unexpected("',' and " + std::string(i == 0   ? "the first value of the counter"
                                           : i == 1 ? "the last value of the counter"
                                                    : "what is added or multiplied"));
-    if (i == 2) counters_.push_back(name);
+    if (i == 2) counters_.push_back({name.text, name.span});
     operands[i] = expression();
   }
   counters_.pop_back();
@@ -79,7 +86,7 @@ Operand ExpressionParser::series(const Token& word) {
 }
 
 /// A new name. POV-Ray counts with words such as x or sin, too, with results of its own.
-const Name* ExpressionParser::counter() {
+Token ExpressionParser::counter() {
   const Token name = stream_.nextRaw();
   const bool isWord = name.isName() && (name.word() != Word::none || name.text->builtin);
   if (!name.isName() || isWord)
@@ -89,7 +96,8 @@ const Name* ExpressionParser::counter() {
     context_.reporter.syntaxError(name.span, "'" + *name.text +
                                                  "' has a value in this function already: count "
                                                  "with another name");
-  return name.text;
+  context_.events.parameter(*name.text, name.span);
+  return name;
 }
 
 }  // namespace vestige::lang

@@ -30,12 +30,14 @@ void Directives::openFile(const Token& directive) {
   Datum value;
   if (file)
     if (auto opened = dataFiles_.open(*file, mode, directive.span.file, span)) value = opened;
+  context_.events.declared(name, value);
   *context_.symbols.declare(name.text) = {std::move(value), name.span};
 }
 
 /// The open file of the name that comes next; null if the name's own error was reported before.
 DataFilePtr Directives::openedFile(const Token& directive, Token& name) {
   name = plainName("#" + *directive.text);
+  context_.events.used(name);
   const Datum* value = context_.symbols.value(name.text);
   if (value && isBroken(*value)) return nullptr;
   const auto* file = value ? std::get_if<DataFilePtr>(value) : nullptr;
@@ -132,7 +134,9 @@ bool Directives::readInto(const Token& directive, DataFile* file) {
     const Token target = newName(directive);
     Datum value;
     if (isOpen) isOpen = nextDatum(*file, value);
-    if (!isBroken(value)) *context_.symbols.declare(target.text) = {std::move(value), target.span};
+    if (isBroken(value)) continue;
+    context_.events.declared(target, value);
+    *context_.symbols.declare(target.text) = {std::move(value), target.span};
   }
   return isOpen;
 }

@@ -110,6 +110,7 @@ Affine Parser::transformBlock() {
   const Nested nested(context_, word);
   const Token ahead = stream_.peek();
   if (const AffinePtr a = named(ahead)) {
+    context_.events.used(ahead);
     stream_.next();
     return *a;
   }
@@ -122,6 +123,7 @@ Affine Parser::transformBlock() {
       all = transform() * all;
     } else if (const AffinePtr a = named(t)) {
       all = *a * all;
+      context_.events.used(t);
       stream_.next();
     } else if (t.isWord("inverse")) {
       stream_.next();
@@ -155,6 +157,8 @@ Parser::Declared Parser::functionBehind(const Span& word) {
         context_.reporter.syntaxError(name.span, "expected the name of a parameter, found " +
                                                      describe(name, context_.sources));
       f->parameters.push_back(name.text);
+      context_.events.parameter(*name.text, name.span);
+      if (context_.events.areWanted()) f->declared.push_back(name.span);
     } while (stream_.acceptRaw(","));
     expressions_.expect(")", open, "(");
   } else {

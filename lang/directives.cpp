@@ -127,6 +127,7 @@ void Directives::declare(const Token& directive) {
                             : *directive.text == "local" ? context_.symbols.innermost()
                                                          : context_.symbols.tableOf(name.text);
   const auto assign = [&](Datum value) {
+    context_.events.declared(name, value);
     *context_.symbols.in(table, name.text) = {std::move(value), name.span};
   };
   try {
@@ -148,6 +149,7 @@ void Directives::needSemicolon(bool isNumbers, const std::string& name) {
 }
 
 void Directives::assignElement(const Token& directive, const Token& name) {
+  context_.events.used(name);
   const Cell cell = context_.symbols.find(name.text);
   std::vector<double> indices;
   std::vector<Span> spans;
@@ -211,6 +213,9 @@ ArrayPtr Directives::copied(const Span& span, const Array& array) {
 void Directives::undefine(const Token& directive) {
   Token name = plainName("#" + *directive.text);
   const auto scope = parser_.expressions().scope(name);
+  const auto declaration = scope ? context_.symbols.declarationIn(*scope, name.text)
+                                 : context_.symbols.declaration(name.text);
+  if (declaration) context_.events.used(name, *declaration);
   if (!scope && (stream_.peekRaw().is("[") || stream_.peekRaw().is("."))) {
     forget(name);
   } else if (!(scope ? context_.symbols.undefineIn(*scope, name.text)

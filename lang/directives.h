@@ -58,6 +58,8 @@ class Directives {
   std::uint32_t here() { return stream_.frame().at - 1; }
   std::uint32_t endOf(std::uint32_t part);
   void jumpBehind(std::uint32_t index);
+  std::uint32_t skipTo(std::uint32_t part);
+  void skipParts(std::uint32_t part);
   void abandon(std::uint32_t first, std::size_t frames);
   bool isOpen(std::uint32_t part);
 

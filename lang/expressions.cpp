@@ -85,7 +85,7 @@ class ExpressionParser::Reads {
   ExpressionParser& parser_;
   Reading reading_;
   const Function* function_;
-  std::vector<const Name*> counters_;
+  std::vector<Counter> counters_;
   std::int64_t nodes_ = 0;
 };
 
@@ -457,9 +457,12 @@ Operand ExpressionParser::channels(std::optional<Operand> base) {
 Operand ExpressionParser::name() {
   Token t = stream_.next();
   if (const auto table = scope(t)) return scoped(t, *table);
-  if (const auto slot = slotOf(t.text))
+  if (const auto slot = slotOf(t.text)) {
+    if (context_.events.areWanted()) context_.events.used(t, declarationOf(*slot));
     return made({.kind = Operation::Kind::parameter, .slot = *slot, .wordSpan = t.span}, {});
+  }
   if (const Datum* value = declared(t)) {
+    context_.events.used(t);
     const bool isFunction = std::holds_alternative<FunctionPtr>(*value);
     return isFunction && stream_.peekRaw().is("(") ? call(t, *value) : Operand{*value, t.span};
   }
@@ -495,10 +498,9 @@ Operand ExpressionParser::call(const Token& name, const Datum& function) {
   }
   expect(")", open, "(");
   const auto kind = builtin ? Operation::Kind::builtin : Operation::Kind::invoke;
-  return made({.kind = kind,
-               .span = context_.sources.join(name.span, stream_.last()),
-               .wordSpan = name.span,
-               .name = name.text},
+  const Span whole = context_.sources.join(name.span, stream_.last());
+  context_.events.call(*name.text, whole);
+  return made({.kind = kind, .span = whole, .wordSpan = name.span, .name = name.text},
               operands.all());
 }
 
@@ -519,6 +521,11 @@ bool ExpressionParser::isDefined(Token name) {
   const auto table = scope(name);
   const Cell cell =
       table ? context_.symbols.findIn(*table, name.text) : context_.symbols.find(name.text);
+  if (cell) {
+    const auto at = table ? context_.symbols.declarationIn(*table, name.text)
+                          : context_.symbols.declaration(name.text);
+    context_.events.used(name, *at);
+  }
   Datum value = cell ? cell->value : Datum();
   bool isKnown = cell && !isClosed(cell->value);
   std::size_t dimension = 0, at = 0;

@@ -94,8 +94,9 @@ class ExpressionParser {
   Datum keyBehindDot();
   Operand scoped(const Token& name, std::size_t table);
   Operand series(const Token& word);
-  const Name* counter();
+  Token counter();
   std::optional<int> slotOf(const Name* name) const;
+  Span declarationOf(int slot) const;
   Operand definedTest(const Token& word);
   Operand unknown(const Token& name);
 
@@ -117,10 +118,13 @@ class ExpressionParser {
   Mode mode_;
   Reading reading_ = Reading::values;
   const Function* function_ = nullptr;  ///< whose body is being read
-  std::vector<const Name*>
-      counters_;            ///< of sum() and prod(), innermost last; slots behind its parameters
-  std::int64_t nodes_ = 0;  ///< of its tree
-  std::vector<Operand> stack_;  ///< the arguments of the calls that are being read
+  struct Counter {
+    const Name* name;
+    Span declared;
+  };
+  std::vector<Counter> counters_;  ///< of sum() and prod(), innermost last; behind the parameters
+  std::int64_t nodes_ = 0;         ///< of its tree
+  std::vector<Operand> stack_;     ///< the arguments of the calls that are being read
 };
 
 }  // namespace vestige::lang

@@ -15,6 +15,7 @@ namespace vestige::lang {
 
 class Sources;    // lang/source.h: texts and expansions that spans refer to
 class TextStore;  // lang/text_store.h
+class Observer;   // lang/observer.h
 
 /// Limits on the cost of hostile texts: steps and bytes bound time and memory whatever the text
 /// does (budget.h); the others find a mistake sooner. Each has its own message, which names the
@@ -62,6 +63,7 @@ struct Options {
   /// Keeps tokens from one run to the next, and holds buffers that count in place of files. Null:
   /// every file is read and tokenised.
   TextStore* store = nullptr;
+  Observer* observer = nullptr;  ///< receives what the run finds; null: nothing does
 };
 
 struct Result {

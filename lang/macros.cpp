@@ -18,6 +18,8 @@ void Directives::macro(const Token& directive) {
     macroParameters(*m);
     if (stream_.frames().size() != depth) return;  // ran past the end of its text
     m->begin = stream_.frame().at;
+    context_.events.declared(name, MacroPtr(m));
+    for (const auto& p : m->parameters) context_.events.parameter(*p.name, p.declared);
     *context_.symbols.declare(name.text) = {MacroPtr(m), name.span};
     jumpBehind(m->end);
   } catch (const SyntaxError&) {
@@ -35,7 +37,8 @@ void Directives::macroParameters(Macro& m) {
     const bool isOptional =
         stream_.peekRaw().isWord("optional") && stream_.peekRaw(1).kind == Token::Kind::name;
     if (isOptional) stream_.nextRaw();
-    Macro::Parameter p{plainName("'(' or ','").text, isOptional};
+    const Token name = plainName("'(' or ','");
+    Macro::Parameter p{name.text, name.span, isOptional};
     if (stream_.acceptRaw("=")) {
       p.isOptional = true;
       p.initial = parser_.value(ExpressionParser::Place::setting).value;
@@ -59,6 +62,7 @@ constexpr std::int64_t kArgumentBytes = sizeof(Symbol) + 64;
 void Directives::expand(const Token& name) {
   const MacroPtr m = std::get<MacroPtr>(*context_.symbols.value(name.text));
   const Nested nested(context_, name.span);
+  context_.events.used(name);
   checkMacroDepth(name);
   if (!stream_.peekRaw().is("("))
     context_.reporter.syntaxError(name.span, "'" + *name.text +
@@ -75,7 +79,9 @@ void Directives::expand(const Token& name) {
   }
   parser_.expressions().expect(")", open, "(");
   const Span call = context_.sources.join(name.span, stream_.last());
-  if (takes(*m, cells.size(), call)) readBody(*m, cells, call);
+  if (!takes(*m, cells.size(), call)) return;
+  context_.events.call(*name.text, call);
+  readBody(*m, cells, call);
 }
 
 bool Directives::takes(const Macro& m, std::size_t arguments, const Span& call) {
@@ -98,9 +104,9 @@ void Directives::readBody(const Macro& m, const std::vector<Cell>& arguments, co
   for (std::size_t i = 0; i < m.parameters.size(); ++i) {
     const auto& p = m.parameters[i];
     if (i < arguments.size())
-      context_.symbols.bind(p.name, arguments[i]);
+      context_.symbols.bind(p, arguments[i]);
     else if (!isBroken(p.initial))
-      context_.symbols.bind(p.name, std::make_shared<Symbol>(Symbol{p.initial, m.declared}));
+      context_.symbols.bind(p, std::make_shared<Symbol>(Symbol{p.initial, m.declared}));
   }
 }
 
@@ -111,6 +117,7 @@ Cell Directives::argument(const std::string& macro) {
   if (t.kind == Token::Kind::name && (after.is(",") || after.is(")")))
     if (Cell cell = context_.symbols.find(t.text)) {
       stream_.next();
+      context_.events.used(t);
       return cell;
     }
   const bool isStart = parser_.expressions().begins(t) || t.kind == Token::Kind::name;

@@ -97,6 +97,7 @@ Block Parser::objectBlock() {
   if (t.kind == Token::Kind::name && words_.opensBlock(*t.text)) {
     start.base = std::make_shared<const Block>(block());
   } else if ((start.base = declaredBlock(t))) {
+    context_.events.used(t);
     stream_.next();
     start.span = context_.sources.join(start.span, t.span);
   } else if (t.kind == Token::Kind::name && !context_.symbols.find(t.text)) {
@@ -115,6 +116,7 @@ Block Parser::objectBlock() {
 
 Block Parser::finishBlock(Head head, Braces braces) {
   BlockBuilder b(context_, *head.schema, head.span);
+  context_.events.block(*head.schema, head.span);
   if (head.base) b.inherit(*head.base);
   if (!head.isOpen && stream_.peek().is("{")) {
     head.isOpen = true;
@@ -159,6 +161,7 @@ bool Parser::headName(const std::string& kind, Head& head) {
   const auto& parts = head.schema ? head.schema->children : std::vector<std::string>();
   if (std::find(parts.begin(), parts.end(), kind) != parts.end()) return false;
   stream_.next();
+  if (declared) context_.events.used(t);
   head.base = declared;
   head.schema = named ? named : words_.find(kind, declared->plugin);
   head.span = context_.sources.join(head.span, t.span);
@@ -264,6 +267,7 @@ bool Parser::isValue(const BlockBuilder& b, const Token& t, bool afterComma) con
 void Parser::positional(BlockBuilder& b) {
   const Parameter* row = b.nextPositional();
   const Token t = stream_.peek();
+  if (row) context_.events.setting(b.schema(), *row, t.span);
   if (row && row->type == ValueType::choice && choiceSetting(b, *row, t.span)) return;
   if (row && row->isList() && listSetting(b, *row, t.span)) return;
   const auto result = expressions_.evaluate(ExpressionParser::Place::setting);
@@ -285,6 +289,7 @@ void Parser::positional(BlockBuilder& b) {
 // parameter value := name (expression | word | pigment | block | list | function)
 void Parser::setting(BlockBuilder& b, const Parameter& row) {
   const Token name = stream_.next();
+  context_.events.setting(b.schema(), row, name.span);
   if (row.type == ValueType::block) return blockSetting(b, row, name.span);
   if (row.texturable && pigmentSetting(b, row, name.span)) return;
   if (row.type == ValueType::choice && choiceSetting(b, row, name.span)) return;
@@ -340,6 +345,7 @@ std::optional<Block> Parser::pigment() {
   }
   const BlockPtr declared = declaredBlock(t);
   if (!declared || declared->kind != "pigment") return {};
+  context_.events.used(t);
   stream_.next();
   countBlocks(context_, *declared, t.span);
   return *declared;
@@ -382,6 +388,7 @@ Parser::Next Parser::nested(BlockBuilder& b, const Token& t) {
   }
   const Parameter* next = b.nextPositional();
   if (next && next->texturable && kind == "pigment") {
+    context_.events.setting(b.schema(), *next, t.span);
     pigmentSetting(b, *next, t.span);
     return Next::more;
   }
@@ -400,6 +407,7 @@ void Parser::declaredItem(BlockBuilder& b, const Token& t, const Block& declared
     const Datum found = std::make_shared<const Block>(declared);
     misplaced(b, t, "'" + *t.text + "' is " + describe(found) + ", which", declared.kind);
   }
+  context_.events.used(t);
   stream_.next();
   countBlocks(context_, declared, t.span);
   b.add(declared);

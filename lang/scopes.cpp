@@ -29,6 +29,7 @@ Datum ExpressionParser::keyBehindDot() {
 Operand ExpressionParser::scoped(const Token& name, std::size_t table) {
   const Cell cell = context_.symbols.findIn(table, name.text);
   if (cell) {
+    context_.events.used(name, *context_.symbols.declarationIn(table, name.text));
     const bool isFunction = std::holds_alternative<FunctionPtr>(cell->value);
     return isFunction && stream_.peekRaw().is("(") ? call(name, cell->value)
                                                    : Operand{cell->value, name.span};

@@ -17,6 +17,7 @@ namespace vestige::lang {
 struct Macro {
   struct Parameter {
     const Name* name;
+    Span declared;
     bool isOptional = false;
     Datum initial =
         {};  ///< default of an optional one; monostate: undefined in the body if omitted
@@ -61,10 +62,8 @@ class Symbols {
   }
   /// The binding in one table, or null.
   Cell findIn(std::size_t table, const Name* name) const {
-    if (nearestOf(name))
-      for (const Binding& b : stacks_[name->id])
-        if (b.table == table) return b.cell;
-    return nullptr;
+    const Binding* found = bindingIn(table, name);
+    return found ? found->cell : nullptr;
   }
   bool isMacro(const Name* name) const {
     const Datum* d = value(name);
@@ -73,7 +72,22 @@ class Symbols {
   /// #declare: the nearest binding, else a new global one.
   Cell declare(const Name* name) { return in(tableOf(name), name); }
   /// A parameter of a macro: a binding to the argument in the innermost table.
-  void bind(const Name* name, Cell cell) { at(innermost(), name) = std::move(cell); }
+  void bind(const Macro::Parameter& parameter, Cell cell) {
+    Binding& made = at(innermost(), parameter.name);
+    made.cell = std::move(cell);
+    made.parameter = parameter.declared;
+  }
+  /// Where the nearest binding was declared; of a parameter, in the macro's head. Nothing if there
+  /// is none.
+  std::optional<Span> declaration(const Name* name) const {
+    const Binding* nearest = nearestOf(name);
+    return nearest ? std::optional(declarationOf(*nearest)) : std::nullopt;
+  }
+  /// The same of the binding in one table.
+  std::optional<Span> declarationIn(std::size_t table, const Name* name) const {
+    const Binding* found = bindingIn(table, name);
+    return found ? std::optional(declarationOf(*found)) : std::nullopt;
+  }
   /// #local: a binding in the innermost table.
   Cell local(const Name* name) { return in(innermost(), name); }
 
@@ -85,7 +99,7 @@ class Symbols {
   }
   /// The binding in one table, made if there is none. A table that has been left: the innermost.
   Cell in(std::size_t table, const Name* name) {
-    Cell& cell = at(std::min(table, innermost()), name);
+    Cell& cell = at(std::min(table, innermost()), name).cell;
     if (!cell) cell = std::make_shared<Symbol>();
     return cell;
   }
@@ -121,31 +135,41 @@ class Symbols {
     std::size_t table;
     const Name* name;
     Cell cell;
+    Span parameter = {};  ///< in the head of a macro; nowhere: not a parameter
   };
   /// Bytes of a binding and its cell, without what the value refers to.
-  static constexpr std::int64_t kEntry = sizeof(Symbol) + 80;
+  static constexpr std::int64_t kEntry = sizeof(Symbol) + 96;
 
   const Binding* nearestOf(const Name* name) const {
     return name->id >= stacks_.size() || stacks_[name->id].empty() ? nullptr
                                                                    : &stacks_[name->id].back();
   }
+  const Binding* bindingIn(std::size_t table, const Name* name) const {
+    if (nearestOf(name))
+      for (const Binding& b : stacks_[name->id])
+        if (b.table == table) return &b;
+    return nullptr;
+  }
+  static Span declarationOf(const Binding& b) {
+    return b.parameter.file >= 0 ? b.parameter : b.cell->declared;
+  }
   void drop(std::vector<Binding>& stack) {
     stack.pop_back();
     *memory_ -= kEntry;
   }
-  /// The cell of a binding in one table; null in a new one.
-  Cell& at(std::size_t table, const Name* name) {
+  /// The binding in one table; a new one has no cell.
+  Binding& at(std::size_t table, const Name* name) {
     if (name->id >= stacks_.size()) grow(name->id);
     std::vector<Binding>& stack = stacks_[name->id];
     auto place = stack.end();
     while (place != stack.begin() && std::prev(place)->table > table) --place;
-    if (place != stack.begin() && std::prev(place)->table == table) return std::prev(place)->cell;
+    if (place != stack.begin() && std::prev(place)->table == table) return *std::prev(place);
     *memory_ += kEntry;
     auto& names = tables_[table];
     const std::size_t before = names.capacity();
     names.push_back(name->id);
     *memory_ += std::int64_t((names.capacity() - before) * sizeof(std::uint32_t));
-    return stack.insert(place, {table, name, nullptr})->cell;
+    return *stack.insert(place, {table, name, nullptr});
   }
   void grow(std::uint32_t id) {
     const std::size_t before = stacks_.capacity();

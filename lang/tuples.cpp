@@ -35,6 +35,7 @@ void Directives::declareTuple(const Token& directive) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Cell cell =
         isLocal ? context_.symbols.local(names[i].text) : context_.symbols.declare(names[i].text);
+    context_.events.declared(names[i], all[i]);
     *cell = {std::move(all[i]), names[i].span};
   }
 }
