@@ -18,7 +18,8 @@ void readSignature(Builtin& b) {
   if (repeats) b.letters.pop_back();
   b.least = std::min(bar, b.letters.size());
   b.most = repeats ? kAnyNumber : b.letters.size();
-  b.takesVectors = b.letters.find('v') != std::string::npos;
+  b.needsCommas = repeats && b.letters.back() == 'n';
+  b.takesVectors = b.letters.find_first_of("vc") != std::string::npos;
 }
 
 const std::map<std::string, Builtin>& table() {
@@ -41,15 +42,17 @@ bool fits(Datum& d, char letter) {
   const Numbers* n = numbers(d);
   if (!n) return false;
   if (letter == 'n') return n->size == 1;
+  if (letter == 'c') return true;
   if (n->size == 1) d = Numbers(n->v[0], n->v[0], n->v[0]);
-  return true;
+  return n->size <= 3;
 }
 
 const char* wanted(char letter) {
   return letter == 's'   ? "a string"
          : letter == 'a' ? "an array"
          : letter == 'n' ? "a number"
-                         : "a vector";
+         : letter == 'v' ? "a vector <x, y, z>"
+                         : "a vector or a colour";
 }
 
 bool hasRightCount(const Builtin& b, const Call& call) {

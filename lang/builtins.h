@@ -40,8 +40,9 @@ struct Call {
 
 struct Builtin {
   const char* name;
-  /// One letter per argument: n number, v vector (a number is promoted), s string, a array. Those
-  /// after '|' may be left out; '+' repeats the last one any number of times.
+  /// One letter per argument: n number, v vector of at most three components (a number is
+  /// promoted), c components of anything that has numbers, s string, a array. Those after '|' may
+  /// be left out; '+' repeats the last one any number of times.
   const char* signature;
   Datum (*apply)(const Call&);
   bool isPure = true;  ///< the same arguments give the same result
@@ -51,6 +52,7 @@ struct Builtin {
   std::size_t least = 0;     ///< number of arguments that a call must have
   std::size_t most = 0;      ///< that it may have
   bool takesVectors = false;
+  bool needsCommas = false;  ///< any count of numbers
 
   char letter(std::size_t i) const { return letters[std::min(i, letters.size() - 1)]; }
   /// Whether that many arguments are valid.

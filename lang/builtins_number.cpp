@@ -38,6 +38,7 @@ Datum squareRoot(const Call& c) {
 
 Datum power(const Call& c) {
   const double x = c.number(0), y = c.number(1), result = std::pow(x, y);
+  if (x == 0 && y == 0) return c.complain(0, "pow(0, 0) has no value");
   if (std::isnan(result) && !std::isnan(x) && !std::isnan(y))
     c.warn(0, "pow() of a negative number with a broken exponent has no value");
   return Numbers(result);
@@ -49,10 +50,13 @@ Datum modulo(const Call& c) {
   return Numbers(std::fmod(c.number(0), c.number(1)));
 }
 
+/// Towards zero; the zero has no sign.
+double truncated(double x) { return std::trunc(x) + 0.0; }
+
 /// The truncated quotient: div(-7, 2) = -3, div(7.9, 2.9) = 2.
 Datum quotient(const Call& c) {
   if (c.number(1) == 0) return c.complain(1, "div() by zero");
-  return Numbers(std::trunc(c.number(0) / c.number(1)));
+  return Numbers(truncated(c.number(0) / c.number(1)));
 }
 
 /// select(a, ifNegative, [ifZero,] ifPositive); two branches: zero counts as positive.
@@ -69,6 +73,12 @@ Datum extreme(const Call& c) {
   for (std::size_t i = 1; i < c.args.size(); ++i)
     best = takesLarger ? std::max(best, c.number(i)) : std::min(best, c.number(i));
   return Numbers(best);
+}
+
+Datum direction(const Call& c) {
+  if (c.number(0) == 0 && c.number(1) == 0)
+    return c.complain(0, "atan2(0, 0) has no value: no direction has this angle");
+  return Numbers(std::atan2(c.number(0), c.number(1)));
 }
 
 template <char op>
@@ -106,12 +116,11 @@ std::vector<Builtin> numberBuiltins() {
       {"asin", "n", [](const Call& c) -> Datum { return Numbers(std::asin(intoUnit(c, "asin"))); }},
       {"asinh", "n", plain<std::asinh>},
       {"atan", "n", plain<std::atan>},
-      {"atan2", "nn",
-       [](const Call& c) -> Datum { return Numbers(std::atan2(c.number(0), c.number(1))); }},
+      {"atan2", "nn", direction},
       {"atanh", "n", plain<std::atanh>},
-      {"bitwise_and", "nn+", bitwise<'&'>},
-      {"bitwise_or", "nn+", bitwise<'|'>},
-      {"bitwise_xor", "nn+", bitwise<'^'>},
+      {"bitwise_and", "n+", bitwise<'&'>},
+      {"bitwise_or", "n+", bitwise<'|'>},
+      {"bitwise_xor", "n+", bitwise<'^'>},
       {"ceil", "n", plain<std::ceil>},
       {"cos", "n", plain<std::cos>},
       {"cosh", "n", plain<std::cosh>},
@@ -120,7 +129,7 @@ std::vector<Builtin> numberBuiltins() {
       {"div", "nn", quotient},
       {"exp", "n", plain<std::exp>},
       {"floor", "n", plain<std::floor>},
-      {"int", "n", plain<std::trunc>},
+      {"int", "n", plain<truncated>},
       {"ln", "n", [](const Call& c) { return logarithm(c, "ln", std::log); }},
       {"log", "n", [](const Call& c) { return logarithm(c, "log", std::log10); }},
       {"max", "n+", extreme<true>},

@@ -10,20 +10,23 @@
 namespace vestige::lang {
 namespace {
 
-/// Widest field and most digits that str() lays out: a double has no more than 1074 of them.
-constexpr int kWidest = 1100;
+/// Longest text of a number, as in POV-Ray.
+constexpr int kLongest = 254;
 
-/// C's "%*.*f": negative width fills with zeros, negative precision means 6.
+/// C's "%*.*f": negative width fills with zeros, negative precision means 6. What would be longer
+/// than kLongest is written as "%*.*g" instead, and what that does not shorten as "<invalid>".
 std::string layout(const Call& c, double x, int width, int digits) {
   constexpr int kDigitsAStep = 2;
   const bool zeros = width < 0;
-  width = std::min(std::abs(std::max(width, -kWidest)), kWidest);
-  digits = digits < 0 ? 6 : std::min(digits, kWidest);
-  c.context.step(c.span, (width + digits) / kDigitsAStep);
-  std::string s(
-      std::size_t(std::snprintf(nullptr, 0, zeros ? "%0*.*f" : "%*.*f", width, digits, x)), '\0');
-  std::snprintf(s.data(), s.size() + 1, zeros ? "%0*.*f" : "%*.*f", width, digits, x);
-  return s;
+  width = std::min(std::abs(std::max(width, -kLongest - 1)), kLongest + 1);
+  digits = std::clamp(digits, -1, kLongest + 1);
+  c.context.step(c.span, kLongest / kDigitsAStep);
+  char text[kLongest + 1];
+  for (const char* format : {zeros ? "%0*.*f" : "%*.*f", zeros ? "%0*.*g" : "%*.*g"}) {
+    const int length = std::snprintf(text, sizeof text, format, width, digits, x);
+    if (length <= kLongest) return text;
+  }
+  return "<invalid>";
 }
 
 /// Adds to a string that a call builds.
@@ -43,15 +46,18 @@ Datum concat(const Call& c) {
   return made(c, std::move(s));
 }
 
-/// vstr(n, vector, separator, width, digits): the first n components; a number fills all.
+/// vstr(n, vector, separator, width, digits): the first n components, 0 for those that the vector
+/// does not have; a number is the first one.
 Datum vectorText(const Call& c) {
-  const int n = c.integer(0);
-  if (n < 2 || n > 5) return c.complain(0, "vstr() writes 2 to 5 components, found " + shortest(n));
+  const int n = std::clamp(c.integer(0), 2, 5);
+  if (n != c.integer(0))
+    c.warn(0, "vstr() writes 2 to 5 components, not " + shortest(c.integer(0)) + ": it writes " +
+                  shortest(n));
   const Numbers v = c.vector(1);
   std::string s;
   for (int i = 0; i < n; ++i) {
     if (i > 0) append(c, s, c.text(2));
-    append(c, s, layout(c, v.at(i), c.integer(3), c.integer(4)));
+    append(c, s, layout(c, v.v[std::size_t(i)], c.integer(3), c.integer(4)));
   }
   return made(c, std::move(s));
 }
@@ -129,7 +135,7 @@ std::vector<Builtin> stringBuiltins() {
       {"strupr", "s", changeCase<true>},
       {"substr", "snn", part},
       {"val", "s", numberOf},
-      {"vstr", "nvsnn", vectorText},
+      {"vstr", "ncsnn", vectorText},
   };
 }
 

@@ -35,8 +35,7 @@ Datum moved(const Affine& a, const Numbers& p) {
 
 Datum rotateAxis(const Call& c) {
   const Numbers axis = c.vector(1);
-  if (dot3(axis, axis) == 0)
-    return c.complain(1, "vaxis_rotate() takes an axis that has a length, found <0, 0, 0>");
+  if (dot3(axis, axis) == 0) c.warn(1, "vaxis_rotate() around <0, 0, 0> has no value");
   return moved(rotationAround(axis, c.number(2)), c.vector(0));
 }
 

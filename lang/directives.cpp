@@ -289,7 +289,8 @@ bool Directives::refuseInclude(const std::string& path, int file, const Span& sp
   return false;
 }
 
-// ('#debug' | '#warning' | '#error') string
+// ('#debug' | '#warning' | '#error') string      after an error #debug is silent: what it would
+// write is made of values that went wrong.
 void Directives::message(const Token& directive) {
   Span span;
   const auto shown = text(directive, span);
@@ -300,6 +301,8 @@ void Directives::message(const Token& directive) {
   if (*directive.text == "error") context_.reporter.stop(directive.span, line);
   if (*directive.text == "warning")
     context_.reporter.warning(directive.span, line);
+  else if (context_.reporter.errors() > 0)
+    return;
   else if (context_.options.debug)
     context_.options.debug(debugText(line));
   else

@@ -117,13 +117,14 @@ ExpressionParser::Result ExpressionParser::evaluate(Place place) {
   const With mode(*this,
                   {place != Place::setting, place == Place::declaration, stream_.frame().via});
   const Reads reads(*this, Reading::values);
-  Operand e = expression();
+  Operand e = isColourAhead() ? colour() : expression();
   return {std::move(e.value), e.span};
 }
 
 std::optional<double> ExpressionParser::condition() {
   const Span open = stream_.peek().span;
   if (!stream_.accept("(")) unexpected("'(' before a condition");
+  if (isColourAhead()) misplacedColour();
   const Result result = evaluate(Place::parentheses);
   expect(")", open, "(");
   if (const Numbers* n = numbers(result.value); n && n->size == 1) return n->v[0];
@@ -212,10 +213,9 @@ Operand ExpressionParser::made(Operation o, std::span<Operand> operands) {
 Operand ExpressionParser::tree(const Operation& o, std::span<Operand> operands) {
   auto e = std::make_unique<Expr>();
   e->operation = o;
-  for (std::size_t i = 0; i < operands.size(); ++i) {
-    const bool isGiven = o.kind != Operation::Kind::channels || (o.given >> i & 1);
-    e->operands.push_back(isGiven ? leaf(std::move(operands[i])) : nullptr);
-    if (isGiven) e->depth = std::max(e->depth, e->operands.back()->depth + 1);
+  for (Operand& operand : operands) {
+    e->operands.push_back(leaf(std::move(operand)));
+    e->depth = std::max(e->depth, e->operands.back()->depth + 1);
   }
   if (e->depth > kDeepestFunction)
     context_.reporter.syntaxError(o.span, "this function's expression is too long");
@@ -281,11 +281,11 @@ Operand ExpressionParser::branch(bool isTaken) {
 
 // logic := comparison { ('&' | '|' | '&&' | '||') comparison }      one level, as POV-Ray
 // comparison := sum { ('<' | '<=' | '=' | '==' | '>=' | '>' | '!=') sum }
-// sum := product { ('+' | '-') product } | colour [channels] | channels
+// sum := product { ('+' | '-') product }
 // product := signedOperand { ('*' | '/' | '%') signedOperand }
 // One function for the levels from `least` on.
 Operand ExpressionParser::binary(Level least) {
-  Operand left = firstOperand(least);
+  Operand left = signedOperand();
   for (;;) {
     // Behind a string or a block a directive may have to wait.
     const bool looksAhead = left.mayCount() || isEnclosed();
@@ -303,22 +303,11 @@ Operand ExpressionParser::binary(Level least) {
   }
 }
 
-Operand ExpressionParser::firstOperand(Level least) {
-  if (least > Level::sum) return signedOperand();
-  if (isColour(stream_.peek().word())) {
-    Operand plain = colour(true);
-    // `filter "box"` is the next setting of a block.
-    const bool isSetting = stream_.peekRaw(1).kind == Token::Kind::string;
-    return isChannelAhead() && !isSetting ? channels(std::move(plain)) : std::move(plain);
-  }
-  if (isChannelAhead() && !declared(stream_.peek())) return channels({});
-  return signedOperand();
-}
-
-// signedOperand := ('+' | '-' | '!') signedOperand | colour | postfix
+// signedOperand := ('+' | '-' | '!') signedOperand | postfix
 Operand ExpressionParser::signedOperand() {
   const Token& ahead = stream_.peek();
-  if (isColour(ahead.word())) return colour(false);
+  if (isColour(ahead.word()) || (channelOf(ahead.word()) >= 0 && !declared(ahead)))
+    misplacedColour();
   const Op op = ahead.is("!") ? Op::invert : operatorOf(ahead.sign);
   if (op != Op::invert && levelOf(op) != Level::sum) return postfix();
   const Span span = ahead.span;
@@ -328,19 +317,23 @@ Operand ExpressionParser::signedOperand() {
   return made({.kind = Operation::Kind::unary, .op = op, .wordSpan = span}, {&operand, 1});
 }
 
-// postfix := primary { '.' component | '[' expression ']' | '(' call of a spline ')' }
+// postfix := primary { '.' key | '[' expression ']' | '(' call of a spline ')' } ['.' component]
 Operand ExpressionParser::postfix() {
   Operand e = primary();
   for (;;) {
     const auto sign = stream_.rawSign();  // raw: what follows an #include's name must wait
-    if (sign == signCode("."))
+    if (sign == signCode(".")) {
+      const bool isEntry =
+          reading_ == Reading::syntax || std::holds_alternative<DictionaryPtr>(e.value);
       e = member(std::move(e));
-    else if (sign == signCode("["))
+      if (!isEntry) return e;  // a component has no components
+    } else if (sign == signCode("[")) {
       e = element(std::move(e));
-    else if (sign == signCode("(") && isSplineCall(e))
+    } else if (sign == signCode("(") && isSplineCall(e)) {
       e = splineCall(std::move(e));
-    else
+    } else {
       return e;
+    }
   }
 }
 
@@ -412,45 +405,17 @@ Operand ExpressionParser::vector() {
     components[count++] = std::move(next);
     if (stream_.accept(",")) continue;
   } while (!stream_.peek().is(">") && !stream_.peek().is(">=") && begins(stream_.peek()));
-  if (!stream_.acceptVectorEnd()) expect(">", open, "<");
+  if (stream_.peek().is(">="))
+    context_.reporter.syntaxError(
+        stream_.peek().span,
+        "'>=' is one sign: write a blank behind the '>' that ends the vector, as in '> ='");
+  expect(">", open, "<");
   const Span whole = context_.sources.join(open, stream_.last());
   if (count < 2)
     context_.reporter.syntaxError(whole,
                                   "a vector has 2 to 5 components, found one; "
                                   "write a plain number instead");
   return made({.kind = Operation::Kind::vector, .wordSpan = whole}, {components, count});
-}
-
-// colour := ('rgb' | 'rgbf' | 'rgbt' | 'rgbft' | 'srgb' ...) sum
-//         | ('color' | 'colour') (colour | channels | sum)
-// Within a sum the word binds only the next operand.
-Operand ExpressionParser::colour(bool wholeSum) {
-  const Token word = stream_.next();
-  const Nested nested(context_, word.span);
-  const bool isBare = isBareColour(word.word());
-  if (isBare && isColour(stream_.peek().word())) return colour(wholeSum);
-  if (isBare && channelOf(stream_.peek().word()) >= 0) return channels({});
-  Operand operand = wholeSum ? binary(Level::sum) : signedOperand();
-  return made({.kind = Operation::Kind::colour, .word = word.word(), .wordSpan = word.span},
-              {&operand, 1});
-}
-
-bool ExpressionParser::isChannelAhead() {
-  return channelOf(stream_.peek().word()) >= 0 && begins(stream_.peekRaw(1));
-}
-
-// channels := { ('red' | 'green' | 'blue' | 'filter' | 'transmit') sum }      the last one counts
-// `base`: a colour whose channels they replace; nothing: black.
-Operand ExpressionParser::channels(std::optional<Operand> base) {
-  Operation o{.kind = Operation::Kind::channels, .wordSpan = stream_.peek().span};
-  Operand operands[6];
-  if (base) operands[5] = std::move(*base), o.given = 1 << 5;
-  do {
-    const int channel = channelOf(stream_.next().word());
-    operands[channel] = binary(Level::sum);
-    o.given |= std::uint8_t(1 << channel);
-  } while (channelOf(stream_.peek().word()) >= 0);
-  return made(o, operands);
 }
 
 // name := parameter | identifier | constant | call | 'defined' '(' identifier ')'
@@ -478,7 +443,7 @@ Operand ExpressionParser::name() {
   return unknown(t);
 }
 
-// call := function '(' [ sum { [','] sum } ] ')'
+// call := function '(' [ sum { [','] sum } ] ')'              of any count of numbers: with commas
 // `function`: the declared one; nothing: a built-in.
 Operand ExpressionParser::call(const Token& name, const Datum& function) {
   const Builtin* builtin = isBroken(function) ? name.text->builtin : nullptr;
@@ -492,9 +457,11 @@ Operand ExpressionParser::call(const Token& name, const Datum& function) {
   // Where no argument is a vector, '<' can only compare, even if a comma was left out.
   const bool takesVectors = builtin && builtin->takesVectors;
   const With mode(*this, {!takesVectors, false, -1});
+  const bool needsCommas = builtin && builtin->needsCommas;
   while (!stream_.peek().is(")")) {
     operands.add(expression());
-    if (!stream_.accept(",") && !begins(stream_.peek())) break;
+    if (stream_.accept(",")) continue;
+    if (needsCommas || !begins(stream_.peek())) break;
   }
   expect(")", open, "(");
   const auto kind = builtin ? Operation::Kind::builtin : Operation::Kind::invoke;

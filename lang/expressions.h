@@ -77,7 +77,6 @@ class ExpressionParser {
   Operand choice();
   Operand branch(bool isTaken);
   Operand binary(Level least);
-  Operand firstOperand(Level least);
   Operand signedOperand();
   Operand postfix();
   Operand member(Operand of);
@@ -87,8 +86,10 @@ class ExpressionParser {
   Operand primary();
   Operand name();
   Operand vector();
-  Operand colour(bool wholeSum);
+  Operand colour();
+  bool isColourAhead();
   bool isChannelAhead();
+  [[noreturn]] void misplacedColour();
   Operand channels(std::optional<Operand> base);
   Operand call(const Token& name, const Datum& function);
   Datum keyBehindDot();

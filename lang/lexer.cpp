@@ -5,7 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <utility>
 
+#include "lang/quotes.h"
 #include "lang/utf8.h"
 
 namespace vestige::lang {
@@ -148,8 +151,10 @@ class Lexer {
   StoredToken string(std::size_t begin) {
     std::string value;
     std::string wrong;
+    bool isJudged = false;
     ++at_;
-    while (!atEnd() && peek() != '"' && peek() != '\n') {
+    while (!atEnd() && peek() != '"') {
+      if (peek() == '\n' && !std::exchange(isJudged, true) && isUnclosed(begin)) break;
       if (peek() == '\\')
         escape(value, wrong);
       else
@@ -159,6 +164,16 @@ class Lexer {
     ++at_;
     if (!wrong.empty()) return bad(begin, wrong);
     return token(Token::Kind::string, begin, value);
+  }
+
+  /// Of a string that reaches the end of its line: whether it is an error there. The rest of the
+  /// text is looked at once only; a mended string leaves as many quotation marks as it takes.
+  bool isUnclosed(std::size_t begin) {
+    const std::string_view text = std::string_view(text_).substr(begin);
+    if (!isOneUnclosed_) isOneUnclosed_ = endsInString(text);
+    if (!*isOneUnclosed_ || !looksUnclosed(text)) return false;
+    isOneUnclosed_ = false;
+    return true;
   }
 
   void escape(std::string& value, std::string& wrong) {
@@ -238,6 +253,7 @@ class Lexer {
   Budget& budget_;
   std::size_t at_ = 0;
   std::array<const Name*, 128 * 3> signs_{};
+  std::optional<bool> isOneUnclosed_;  ///< string in the text; not known before one is suspected
 };
 
 /// The tokens with the names of this run, which are met in the same order as by the Lexer: every

@@ -18,10 +18,10 @@ double decodeSrgb(double x) {
 
 double truth(bool b) { return b ? 1 : 0; }
 
-/// Weights of `.gray`, POV-Ray's.
+/// Weights of `.gray`, POV-Ray's; what a number or a short vector does not have is 0.
 double grey(const Numbers& n) { return 0.297 * n.v[0] + 0.589 * n.v[1] + 0.114 * n.v[2]; }
 
-/// The component that a word names; grey needs the first three.
+/// The component that a word names.
 int componentOf(Word word) {
   if (const int channel = channelOf(word); channel >= 0) return channel;
   switch (word) {
@@ -89,7 +89,8 @@ Datum Operations::unary(const Operation& o, const Operand& operand) {
   const Numbers* n = numbersOf(operand, textOf(o.op));
   if (!n) return {};
   Numbers r = *n;
-  for (double& x : r.v) {
+  for (int i = 0; i < r.size; ++i) {
+    double& x = r.v[std::size_t(i)];
     if (o.op == Op::minus) x = -x;
     if (o.op == Op::invert) x = truth(!isTrue(x));
   }
@@ -188,7 +189,7 @@ Datum Operations::member(const Operation& o, const Operand& operand) {
   if (!n) return {};
   const bool isGrey = o.word == Word::gray || o.word == Word::grey;
   const int place = componentOf(o.word);
-  if (n->size == 1 || place >= n->size) {
+  if (!isGrey && place >= n->size) {
     context_.reporter.error(o.wordSpan, quoted(dotted.c_str()) + " asks for a component that " +
                                             describe(operand.value) + " does not have");
     return {};

@@ -26,6 +26,7 @@ class Reporter {
     offered_ = {Edit{diagnostics_.list().size(), span, std::move(text)}};
   }
   void withdraw() { offered_.clear(); }
+  int errors() const { return diagnostics_.errors(); }
 
   /// During its lifetime errors and warnings are discarded; a limit still stops the reading.
   class Muted {

@@ -57,17 +57,6 @@ bool TokenStream::accept(const char* sign) {
   return true;
 }
 
-bool TokenStream::acceptVectorEnd() {
-  if (accept(">")) return true;
-  if (!peek().is(">=")) return false;
-  last_ = next_.span;
-  last_.end = ++next_.span.begin;
-  next_.text = context_.names.intern("=");
-  next_.sign = signCode("=");
-  if (Token rest; peekRaw(1).is("=")) advance(rest);  // '>==' is '>' and '=='
-  return true;
-}
-
 Token TokenStream::peekRaw(int ahead) const {
   if (hasNext_ && ahead-- == 0) return next_;
   for (std::size_t f = frames_.size(); f-- > 0;) {

@@ -54,8 +54,6 @@ class TokenStream {
   }
   Token next();
   bool accept(const char* sign);
-  /// '>' at the end of a vector. Of '>=' the rest stays, so that <1,2,3>=<3,2,1> compares.
-  bool acceptVectorEnd();
 
   /// The next token without executing directives or expanding macros. May look several tokens
   /// ahead, through the ends of macros.

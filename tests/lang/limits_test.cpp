@@ -55,7 +55,6 @@ TEST_CASE("each limit has its message and its flag", "[lang]") {
       {"#declare A = " + repeated("(", 1000), "--max-nesting"},
       {"#declare A = " + repeated("-", 1000) + "1;", "--max-nesting"},
       {"#declare A = " + repeated("<", 1000), "--max-nesting"},
-      {"#declare A = " + repeated("rgb ", 1000), "--max-nesting"},
       {repeated("#declare A = ", 1000), "--max-nesting"},
       {repeated("union { ", 1000), "--max-nesting"},
       {"sphere { 0, 1 " + repeated("transform { ", 1000), "--max-nesting"},
@@ -67,7 +66,7 @@ TEST_CASE("each limit has its message and its flag", "[lang]") {
        "} } #end",
        "--max-blocks"},
       {"#declare A = array[1e9];", "--max-array-elements"},
-      {"#declare S = str(1, 900, 0); #declare A = array[900]; #for (I, 0, 899) #declare A[I] = "
+      {"#declare S = str(1, 250, 0); #declare S = concat(S, S, S, S); #declare A = array[900]; #for (I, 0, 899) #declare A[I] = "
        "strupr(S); #end",
        "--max-memory"},
       {"#declare A = array[1000]; #declare B = array[1];", "--max-array-elements"},

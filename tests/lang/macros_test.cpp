@@ -74,11 +74,9 @@ TEST_CASE("extensions where POV-Ray only refuses", "[lang]") {
   CHECK(debugOf("#declare A = 1 < 2; #debug str(A, 0, 0)") == "1");
   CHECK(debugOf("#debug str((1 == 1 && 2 != 3 || 0), 0, 0)") == "1");
   CHECK(debugOf("#debug str(7 % 4, 0, 0)") == "3");
-  CHECK(debugOf("#debug vstr(3, (<1,2,3>=<1,5,3>), \",\", 0, 0)") == "1,0,1");
   CHECK(debugOf("#declare A = array { 1, 2, 3 }; #debug str(dimension_size(A, 1), 0, 0)") == "3");
   CHECK(debugOf("#debug str(max(1 < 2, 0), 0, 0)") == "1");
   CHECK(debugOf("#debug str(tau / pi, 0, 0)") == "2");
-  CHECK(debugOf("#debug vstr(3, 2 * rgb 1, \",\", 0, 0)") == "2,2,2");
 }
 
 TEST_CASE("long sums and texts do not need a deep stack", "[lang]") {
