@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/builtins.h"
 
+#include <climits>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -18,7 +19,7 @@ void readSignature(Builtin& b) {
   if (repeats) b.letters.pop_back();
   b.least = std::min(bar, b.letters.size());
   b.most = repeats ? kAnyNumber : b.letters.size();
-  b.needsCommas = repeats && b.letters.back() == 'n';
+  b.needsCommas = !b.letters.empty() && b.letters.back() == 'n' ? b.least : b.most;
   b.takesVectors = b.letters.find_first_of("vc") != std::string::npos;
 }
 
@@ -70,8 +71,7 @@ bool hasRightCount(const Builtin& b, const Call& call) {
 
 int Call::integer(std::size_t i) const {
   const double x = number(i);
-  if (std::isnan(x)) return 0;
-  return int(std::clamp(x, -2147483648.0, 2147483647.0));
+  return x > -2147483649.0 && x < 2147483648.0 ? int(x) : INT_MIN;
 }
 
 Datum Call::complain(std::size_t i, const std::string& message) const {

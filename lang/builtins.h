@@ -31,7 +31,7 @@ struct Call {
   double number(std::size_t i) const { return std::get<Numbers>(args[i]).at(0); }
   Numbers vector(std::size_t i) const { return std::get<Numbers>(args[i]); }
   const std::string& text(std::size_t i) const { return *std::get<TextPtr>(args[i]); }
-  /// An integer within the range of int, truncated as in POV-Ray.
+  /// A truncated number; beyond the range of int, and for nan, INT_MIN, as in POV-Ray.
   int integer(std::size_t i) const;
   /// Reports an error in argument i; returns std::monostate.
   Datum complain(std::size_t i, const std::string& message) const;
@@ -52,7 +52,7 @@ struct Builtin {
   std::size_t least = 0;     ///< number of arguments that a call must have
   std::size_t most = 0;      ///< that it may have
   bool takesVectors = false;
-  bool needsCommas = false;  ///< any count of numbers
+  std::size_t needsCommas = 0;  ///< number of arguments behind which a comma cannot be left out
 
   char letter(std::size_t i) const { return letters[std::min(i, letters.size() - 1)]; }
   /// Whether that many arguments are valid.

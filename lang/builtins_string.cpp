@@ -10,23 +10,29 @@
 namespace vestige::lang {
 namespace {
 
-/// Longest text of a number, as in POV-Ray.
-constexpr int kLongest = 254;
+/// Widest field and most digits that are laid out: a double has no more than 1074 of them.
+constexpr int kWidest = 1100;
 
-/// C's "%*.*f": negative width fills with zeros, negative precision means 6. What would be longer
-/// than kLongest is written as "%*.*g" instead, and what that does not shorten as "<invalid>".
-std::string layout(const Call& c, double x, int width, int digits) {
+/// C's "%*.*f" or "%*.*g": negative width fills with zeros, negative precision means 6.
+std::string layout(const Call& c, double x, int width, int digits, char kind = 'f') {
   constexpr int kDigitsAStep = 2;
   const bool zeros = width < 0;
-  width = std::min(std::abs(std::max(width, -kLongest - 1)), kLongest + 1);
-  digits = std::clamp(digits, -1, kLongest + 1);
-  c.context.step(c.span, kLongest / kDigitsAStep);
-  char text[kLongest + 1];
-  for (const char* format : {zeros ? "%0*.*f" : "%*.*f", zeros ? "%0*.*g" : "%*.*g"}) {
-    const int length = std::snprintf(text, sizeof text, format, width, digits, x);
-    if (length <= kLongest) return text;
-  }
-  return "<invalid>";
+  width = std::min(std::abs(std::max(width, -kWidest)), kWidest);
+  digits = digits < 0 ? 6 : std::min(digits, kWidest);
+  c.context.step(c.span, (width + digits) / kDigitsAStep);
+  const char* format = kind == 'f' ? zeros ? "%0*.*f" : "%*.*f" : zeros ? "%0*.*g" : "%*.*g";
+  std::string s(std::size_t(std::snprintf(nullptr, 0, format, width, digits, x)), '\0');
+  std::snprintf(s.data(), s.size() + 1, format, width, digits, x);
+  return s;
+}
+
+/// str(x, width, digits). POV-Ray has room for so many characters: what is longer is written with
+/// an exponent, and what that does not shorten as "<invalid>".
+std::string numberText(const Call& c) {
+  constexpr std::size_t kLongest = 254;
+  std::string s = layout(c, c.number(0), c.integer(1), c.integer(2));
+  if (s.size() > kLongest) s = layout(c, c.number(0), c.integer(1), c.integer(2), 'g');
+  return s.size() > kLongest ? "<invalid>" : s;
 }
 
 /// Adds to a string that a call builds.
@@ -102,15 +108,37 @@ double difference(const std::string& a, const std::string& b) {
   }
 }
 
-Datum numberOf(const Call& c) {
-  const std::string& s = c.text(0);
-  std::size_t from = s.find_first_not_of(" \t");
-  if (from != std::string::npos && s[from] == '+') ++from;
+/// Magnitude of a number beyond the range of double, without its sign.
+double beyondRange(std::string_view digits) {
+  const std::size_t exponent = digits.find_first_of("eEpP");
+  const bool isTiny = exponent == digits.npos ? digits[0] == '.' || digits[0] == '0'
+                                              : digits.substr(exponent + 1, 1) == "-";
+  return isTiny ? 0 : HUGE_VAL;
+}
+
+/// C's strtod() whatever the locale: blanks, a sign, decimal or 0x... digits, inf or nan.
+double readNumber(std::string_view s, bool& isFound) {
+  s.remove_prefix(std::min(s.find_first_not_of(" \t\n\v\f\r"), s.size()));
+  const bool isNegative = !s.empty() && s[0] == '-';
+  if (!s.empty() && (s[0] == '-' || s[0] == '+')) s.remove_prefix(1);
   double x = 0;
-  if (from == std::string::npos ||
-      std::from_chars(s.data() + from, s.data() + s.size(), x).ec != std::errc())
-    c.warn(0, "val() finds no number in \"" + s + "\" and gives 0");
-  return Numbers(x);
+  const bool isHex = s.size() > 2 && s[0] == '0' && (s[1] == 'x' || s[1] == 'X');
+  const auto read = [&](std::string_view digits, std::chars_format format) {
+    if (digits.empty() || digits[0] == '-') return false;
+    const auto error = std::from_chars(digits.data(), digits.data() + digits.size(), x, format).ec;
+    if (error == std::errc::result_out_of_range) x = beyondRange(digits);
+    return error != std::errc::invalid_argument;
+  };
+  isFound =
+      (isHex && read(s.substr(2), std::chars_format::hex)) || read(s, std::chars_format::general);
+  return isNegative ? -x : x;
+}
+
+Datum numberOf(const Call& c) {
+  bool isFound = false;
+  const double x = readNumber(c.text(0), isFound);
+  if (!isFound) c.warn(0, "val() finds no number in \"" + c.text(0) + "\" and gives 0");
+  return Numbers(isFound ? x : 0);
 }
 
 Datum fileExists(const Call& c) {
@@ -126,8 +154,7 @@ std::vector<Builtin> stringBuiltins() {
       {"chr", "n", character},
       {"concat", "s+", concat},
       {"file_exists", "s", fileExists, false},
-      {"str", "nnn",
-       [](const Call& c) { return made(c, layout(c, c.number(0), c.integer(1), c.integer(2))); }},
+      {"str", "nnn", [](const Call& c) { return made(c, numberText(c)); }},
       {"strcmp", "ss",
        [](const Call& c) -> Datum { return Numbers(difference(c.text(0), c.text(1))); }},
       {"strlen", "s", [](const Call& c) -> Datum { return Numbers(double(lengthOf(c.text(0)))); }},

@@ -443,7 +443,8 @@ Operand ExpressionParser::name() {
   return unknown(t);
 }
 
-// call := function '(' [ sum { [','] sum } ] ')'              of any count of numbers: with commas
+// call := function '(' [ sum { [','] sum } ] ')'
+// Commas may be left out in front of the arguments that a call must have, and of strings.
 // `function`: the declared one; nothing: a built-in.
 Operand ExpressionParser::call(const Token& name, const Datum& function) {
   const Builtin* builtin = isBroken(function) ? name.text->builtin : nullptr;
@@ -457,11 +458,14 @@ Operand ExpressionParser::call(const Token& name, const Datum& function) {
   // Where no argument is a vector, '<' can only compare, even if a comma was left out.
   const bool takesVectors = builtin && builtin->takesVectors;
   const With mode(*this, {!takesVectors, false, -1});
-  const bool needsCommas = builtin && builtin->needsCommas;
-  while (!stream_.peek().is(")")) {
+  bool isMore = !stream_.peek().is(")");
+  while (isMore) {
+    context_.budget.need(name.span, double(operands.size() * sizeof(Operand)));
     operands.add(expression());
-    if (stream_.accept(",")) continue;
-    if (needsCommas || !begins(stream_.peek())) break;
+    isMore = stream_.accept(",");
+    if (isMore || !begins(stream_.peek())) continue;
+    if (builtin && operands.size() >= builtin->needsCommas) unexpected("',' or ')'");
+    isMore = true;
   }
   expect(")", open, "(");
   const auto kind = builtin ? Operation::Kind::builtin : Operation::Kind::invoke;

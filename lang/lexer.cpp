@@ -157,6 +157,8 @@ class Lexer {
       if (peek() == '\n' && !std::exchange(isJudged, true) && isUnclosed(begin)) break;
       if (peek() == '\\')
         escape(value, wrong);
+      else if (peek() == '\r' && peek(1) == '\n')
+        ++at_;  // a line ends with one character
       else
         value += text_[at_++];
     }
@@ -182,14 +184,11 @@ class Lexer {
     if (const auto known = letters.find(c); c != '\0' && known != std::string::npos) {
       value += values[known];
       at_ += 2;
-    } else if (c == '0') {
-      value += '\0';
-      at_ += 2;
     } else if (c == 'u') {
       unicode(value, wrong);
     } else {
       wrong = "no escape in a string begins '\\" + std::string(1, c) +
-              "': known are \\a \\b \\f \\n \\r \\t \\v \\0 \\\\ \\' \\\" \\uNNNN "
+              "': known are \\a \\b \\f \\n \\r \\t \\v \\\\ \\' \\\" \\uNNNN "
               "(write '/' between folders, also on Windows)";
       at_ += 1;
     }

@@ -143,7 +143,8 @@ Datum Operations::vector(std::span<const Operand> operands) {
 }
 
 // A number fills red, green and blue and what else the word names: `rgbt 0.4` transmits 0.4, and
-// `color 0.4` sets all five. A vector gives its components in order, also beyond the word's own.
+// `color 0.4` sets all five. A vector gives its components in order, also beyond the word's own;
+// the fourth of `rgbt` is transmit.
 Datum Operations::colour(const Operation& o, const Operand& operand) {
   const Numbers* n = numbersOf(operand, textOf(o.word));
   if (!n) return {};
@@ -160,7 +161,7 @@ Datum Operations::colour(const Operation& o, const Operand& operand) {
   for (int i = 0; i < 5; ++i) r.v[std::size_t(i)] = n->at(i);
   if (n->size == 1 && tail.find('f') == tail.npos) r.v[3] = 0;
   if (n->size == 1 && tail.find('t') == tail.npos) r.v[4] = 0;
-  if (tail == "t" && n->size == 4) r.v[4] = r.v[3], r.v[3] = 0;
+  if (tail == "t" && n->size > 3) r.v[4] = r.v[3], r.v[3] = 0;
   if (isSrgb)
     for (std::size_t i = 0; i < 3; ++i) r.v[i] = decodeSrgb(r.v[i]);
   return r;

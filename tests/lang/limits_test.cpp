@@ -66,7 +66,8 @@ TEST_CASE("each limit has its message and its flag", "[lang]") {
        "} } #end",
        "--max-blocks"},
       {"#declare A = array[1e9];", "--max-array-elements"},
-      {"#declare S = str(1, 250, 0); #declare S = concat(S, S, S, S); #declare A = array[900]; #for (I, 0, 899) #declare A[I] = "
+      {"#declare S = str(1, 250, 0); #declare S = concat(S, S, S, S); #declare A = array[900]; "
+       "#for (I, 0, 899) #declare A[I] = "
        "strupr(S); #end",
        "--max-memory"},
       {"#declare A = array[1000]; #declare B = array[1];", "--max-array-elements"},
