@@ -53,9 +53,13 @@ void Directives::abandon(std::uint32_t first, std::size_t frames) {
 /// reported by the lexer) or inside a head, as in `#if (1 #else`.
 bool Directives::isOpen(std::uint32_t part) {
   const Frame& f = stream_.frame();
+  if (f.open.empty()) return false;
+  const std::uint32_t first = f.open.back().first;
   const Token& last = f.token(endOf(part));
-  return !f.open.empty() && last.kind == Token::Kind::directive && *last.text == "end" &&
-         last.jump == f.open.back().first;
+  if (last.kind == Token::Kind::directive) return *last.text == "end" && last.jump == first;
+  std::uint32_t at = first;  // without #end: each part leads to the next one
+  while (at < part) at = f.list->tokens[at].jump;
+  return at == part;
 }
 
 void Directives::countLoop(const Span& span) {
@@ -67,11 +71,14 @@ void Directives::countLoop(const Span& span) {
 }
 
 // ---------------------------------------------------------------- #if
-// '(' name { '[' sum ']' } ')'
+// '(' (name { '[' sum ']' } | number | string) ')'      only a name has a value to ask for
 bool Directives::isDefined() {
   const Span open = stream_.peekRaw().span;
   if (!stream_.acceptRaw("(")) parser_.expressions().unexpected("'(' and a name");
-  const bool isKnown = parser_.expressions().isDefined(plainName("'('"));
+  const Token t = stream_.peekRaw();
+  const bool isConstant = t.kind == Token::Kind::number || t.kind == Token::Kind::string;
+  if (isConstant) stream_.nextRaw();
+  const bool isKnown = !isConstant && parser_.expressions().isDefined(plainName("'('"));
   parser_.expressions().expect(")", open, "(");
   return isKnown;
 }
@@ -98,7 +105,9 @@ void Directives::ifBranch(const Token& directive) {
     }
     if (stream_.frames().size() != depth) return;
     if (isTaken) {
-      stream_.frame().open.push_back({OpenDirective::Kind::branch, first});
+      OpenDirective open{OpenDirective::Kind::branch, first};
+      open.isLastPart = word == "else";
+      stream_.frame().open.push_back(std::move(open));
       return;
     }
     part = skipTo(tokens[part].jump);
@@ -135,7 +144,7 @@ bool Directives::testWhile(std::uint32_t first) {
   }
 }
 
-// '#for' '(' name ',' first ',' last [ ',' step ] ')' … '#end'
+// '#for' '(' name [','] first [','] last [ [','] step ] ')' … '#end'
 void Directives::forLoop(const Token& directive) {
   const std::uint32_t first = here();
   const std::size_t depth = stream_.frames().size();
@@ -143,32 +152,21 @@ void Directives::forLoop(const Token& directive) {
     const Span open = stream_.peekRaw().span;
     if (!stream_.acceptRaw("(")) parser_.expressions().unexpected("'(' after #for");
     const Token name = newName(directive);
-    double bounds[3] = {0, 0, 1};
-    int given = 0;
-    for (; given < 3 && stream_.accept(","); ++given) {
-      const auto bound = parser_.expressions().evaluate(ExpressionParser::Place::setting);
-      const Numbers* n = numbers(bound.value);
-      if (!n || n->size != 1) {
-        if (!isBroken(bound.value))
-          context_.reporter.error(bound.span,
-                                  "#for counts with numbers, found " + describe(bound.value));
-        throw SyntaxError{};
-      }
-      bounds[given] = n->v[0];
-      if (given == 2 && n->v[0] == 0)
-        context_.reporter.syntaxError(bound.span, "the step of #for is 0: the loop would not end");
-    }
-    if (given < 2) parser_.expressions().unexpected("',' and the bounds: #for (I, 1, 10)");
+    if (context_.symbols.isMacro(name.text))
+      context_.reporter.syntaxError(
+          name.span, "'" + *name.text + "' is a macro: the counter of #for needs another name");
+    OpenDirective loop{OpenDirective::Kind::forLoop, first};
+    loop.name = name.text;
+    loop.counter = context_.symbols.local(name.text);
+    *loop.counter = {Numbers(0.0), name.span};  // as in POV-Ray, before the bounds are read
+    *loop.counter = {Numbers(loopBound()), name.span};
+    loop.last = loopBound();
+    stream_.accept(",");
+    loop.step = stream_.peek().is(")") ? 1 : loopStep();
     parser_.expressions().expect(")", open, "(");
     if (stream_.frames().size() != depth) return;
-    OpenDirective loop{OpenDirective::Kind::forLoop,
-                       first,
-                       context_.symbols.local(name.text),
-                       bounds[1],
-                       bounds[2],
-                       stream_.frame().at};
-    *loop.counter = {Numbers(bounds[0]), name.span};
     context_.events.declared(name, loop.counter->value);
+    loop.body = stream_.frame().at;
     if (isWithin(loop, directive.span))
       stream_.frame().open.push_back(std::move(loop));
     else
@@ -178,49 +176,98 @@ void Directives::forLoop(const Token& directive) {
   }
 }
 
+/// A bound of #for with the comma in front of it, which may be left out as in POV-Ray.
+double Directives::loopBound() {
+  stream_.accept(",");
+  if (stream_.peek().is(")"))
+    parser_.expressions().unexpected("',' and the bounds: #for (I, 1, 10)");
+  const auto bound = parser_.expressions().evaluate(ExpressionParser::Place::setting);
+  const Numbers* n = numbers(bound.value);
+  if (n && n->size == 1) return n->v[0];
+  if (!isBroken(bound.value))
+    context_.reporter.error(bound.span, "#for counts with numbers, found " + describe(bound.value));
+  throw SyntaxError{};
+}
+
+double Directives::loopStep() {
+  const double step = loopBound();
+  if (std::abs(step) < kTruth)
+    context_.reporter.syntaxError(stream_.last(), "the step of #for is 0: the loop would not end");
+  return step;
+}
+
 /// The tolerance lets #for (I, 0, 1, 0.1) reach 1, as POV-Ray's does.
 bool Directives::isWithin(const OpenDirective& loop, const Span& span) {
   countLoop(span);
   const Numbers* n = numbers(loop.counter->value);
+  if (!context_.symbols.find(loop.name)) {
+    context_.reporter.error(span, "the counter of this #for has been forgotten by #undef");
+    return false;
+  }
   if (!n || n->size != 1) {
     context_.reporter.error(span,
                             "the counter of this #for has become " + describe(loop.counter->value));
     return false;
   }
-  return loop.step > 0 ? n->v[0] <= loop.last + kTruth : n->v[0] >= loop.last - kTruth;
+  return loop.step > 0 ? n->v[0] < loop.last + kTruth : n->v[0] > loop.last - kTruth;
 }
 
 // ---------------------------------------------------------------- #switch
-// '#switch' condition { ('#case' '(' x ')' | '#range' '(' low ',' high ')') … } [ '#else' … ]
-// '#end'
+// '#switch' condition … { ('#case' '(' x ')' | '#range' '(' low [','] high ')') … } [ '#else' … ]
+// '#end'                      the text in front of the first #case is read, as in POV-Ray
 void Directives::choice(const Token&) {
   const std::uint32_t first = here();
   const std::size_t depth = stream_.frames().size();
-  const auto& tokens = stream_.frame().list->tokens;
   try {
     const auto x = parser_.expressions().condition();
-    for (std::uint32_t part = x ? tokens[first].jump : endOf(first);; part = tokens[part].jump) {
-      if (stream_.frames().size() != depth) return;
-      jumpBehind(skipTo(part));
-      if (tokens[part].kind != Token::Kind::directive || *tokens[part].text == "end") return;
-      if (!caseMatches(*tokens[part].text, *x)) continue;
-      if (stream_.frames().size() == depth)
-        stream_.frame().open.push_back({OpenDirective::Kind::choice, first});
-      return;
-    }
+    if (stream_.frames().size() != depth) return;
+    if (!x) return jumpBehind(skipTo(endOf(first)));
+    OpenDirective open{OpenDirective::Kind::choice, first};
+    open.value = *x;
+    open.isBeforeCases = true;
+    stream_.frame().open.push_back(std::move(open));
   } catch (const SyntaxError&) {
     abandon(first, depth);
   }
 }
 
+/// Continues behind the part of a #switch that its value chooses, from this part on.
+void Directives::choose(std::uint32_t part) {
+  const std::size_t depth = stream_.frames().size();
+  const auto& tokens = stream_.frame().list->tokens;
+  const OpenDirective open = stream_.frame().open.back();
+  stream_.frame().open.pop_back();
+  try {
+    const std::string& word = *tokens[part].text;
+    if (word != "case" && word != "range")
+      context_.reporter.syntaxError(stream_.frame().token(open.first).span,
+                                    "this #switch has no #case and no #range");
+    for (;; part = skipTo(tokens[part].jump)) {
+      if (stream_.frames().size() != depth) return;
+      jumpBehind(part);
+      if (tokens[part].kind != Token::Kind::directive || *tokens[part].text == "end") return;
+      if (!caseMatches(*tokens[part].text, open.value)) continue;
+      if (stream_.frames().size() == depth)
+        stream_.frame().open.push_back({OpenDirective::Kind::choice, open.first});
+      return;
+    }
+  } catch (const SyntaxError&) {
+    abandon(open.first, depth);
+  }
+}
+
 bool Directives::caseMatches(const std::string& word, double x) {
   if (word == "else") return true;
+  if (word == "elseif")
+    context_.reporter.syntaxError(stream_.last(), "#elseif belongs to #if: a #switch has #case");
   const Span open = stream_.peek().span;
   if (!stream_.accept("(")) parser_.expressions().unexpected("'(' after #" + word);
   double bounds[2] = {};
   for (int i = 0; i < (word == "range" ? 2 : 1); ++i) {
-    if (i > 0 && !stream_.accept(",")) parser_.expressions().unexpected("','");
-    const auto bound = parser_.expressions().evaluate(ExpressionParser::Place::setting);
+    if (i > 0) stream_.accept(",");
+    if (i > 0 && stream_.peek().is(")"))
+      parser_.expressions().unexpected("two bounds, as in #range (1, 2)");
+    const auto bound = parser_.expressions().evaluate(ExpressionParser::Place::parentheses);
     const Numbers* n = numbers(bound.value);
     if (!n || n->size != 1) {
       if (!isBroken(bound.value))
@@ -240,8 +287,15 @@ bool Directives::caseMatches(const std::string& word, double x) {
 void Directives::nextPart(const Token& directive) {
   const std::uint32_t part = here();
   auto& open = stream_.frame().open;
-  if (!isOpen(part)) throw SyntaxError{};  // already reported: skips what follows it
+  if (!isOpen(part)) {  // already reported: skips what follows it
+    context_.reporter.fail();
+    throw SyntaxError{};
+  }
+  if (open.back().isBeforeCases) return choose(part);
   if (open.back().kind != OpenDirective::Kind::choice) {
+    if (open.back().isLastPart)
+      context_.reporter.error(directive.span,
+                              "#" + *directive.text + " behind the #else of the same #if");
     open.pop_back();
     skipParts(part);
     return;
@@ -255,7 +309,8 @@ void Directives::nextPart(const Token& directive) {
 
 void Directives::end(const Token&) {
   const std::uint32_t at = here();
-  if (!isOpen(at)) return;
+  if (!isOpen(at)) return context_.reporter.fail();
+  if (stream_.frame().open.back().isBeforeCases) return choose(at);
   const std::size_t depth = stream_.frames().size();
   const OpenDirective top = stream_.frame().open.back();
   bool again = false;
@@ -279,6 +334,8 @@ void Directives::leave(const Token& directive) {
     const OpenDirective top = f.open.back();
     f.open.pop_back();
     if (top.kind == OpenDirective::Kind::branch) continue;
+    if (top.isBeforeCases)
+      context_.reporter.error(directive.span, "#break in front of the first #case of its #switch");
     if (top.kind == OpenDirective::Kind::choice)
       skipParts(top.first);
     else

@@ -301,8 +301,8 @@ void Directives::message(const Token& directive) {
   if (*directive.text == "error") context_.reporter.stop(directive.span, line);
   if (*directive.text == "warning")
     context_.reporter.warning(directive.span, line);
-  else if (context_.reporter.errors() > 0)
-    return;
+  else if (context_.reporter.hasFailed())
+    return;  // its values may be what an error has left
   else if (context_.options.debug)
     context_.options.debug(debugText(line));
   else

@@ -53,7 +53,10 @@ class Directives {
   bool isDefined();
   bool testWhile(std::uint32_t first);
   bool isWithin(const OpenDirective& loop, const Span& span);
+  void choose(std::uint32_t part);
   bool caseMatches(const std::string& word, double x);
+  double loopBound();
+  double loopStep();
   void countLoop(const Span& span);
   std::uint32_t here() { return stream_.frame().at - 1; }
   std::uint32_t endOf(std::uint32_t part);

@@ -303,9 +303,9 @@ void pair(TokenList& list, Reporter* reporter) {
       const bool wantsSwitch = *t.text == "case" || *t.text == "range";
       if (open.empty() || (wantsSwitch && !isSwitch(open.back()))) {
         if (reporter)
-          reporter->error(list.token(i).span,
-                          "#" + *t.text + " without " +
-                              (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
+          reporter->errorAhead(list.token(i).span,
+                               "#" + *t.text + " without " +
+                                   (wantsSwitch ? "a #switch around it" : "an open #if or #for"));
         continue;
       }
       tokens[open.back().last].jump = i;
@@ -320,7 +320,7 @@ void pair(TokenList& list, Reporter* reporter) {
     tokens[o.last].jump = std::uint32_t(tokens.size() - 1);
     close(o.first, tokens[o.last].jump);
     if (reporter)
-      reporter->error(list.token(o.first).span, "#" + *tokens[o.first].text + " has no #end");
+      reporter->errorAhead(list.token(o.first).span, "#" + *tokens[o.first].text + " has no #end");
   }
 }
 

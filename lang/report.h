@@ -26,7 +26,6 @@ class Reporter {
     offered_ = {Edit{diagnostics_.list().size(), span, std::move(text)}};
   }
   void withdraw() { offered_.clear(); }
-  int errors() const { return diagnostics_.errors(); }
 
   /// During its lifetime errors and warnings are discarded; a limit still stops the reading.
   class Muted {
@@ -47,6 +46,11 @@ class Reporter {
   /// Reports an error. The same message at the same place, as in a loop, is reported once.
   Diagnostic& error(const Span& span, const std::string& message) {
     if (isMuted_) return discarded();
+    fail();
+    return errorAhead(span, message);
+  }
+  /// Reports an error in a part of the text that is not reached yet. Reaching it must fail().
+  Diagnostic& errorAhead(const Span& span, const std::string& message) {
     const Edits offered = std::move(offered_);
     offered_.clear();
     if (!isNew(span, message)) {
@@ -72,6 +76,9 @@ class Reporter {
     edits_.insert(edits_.end(), offered.begin(), offered.end());
     return diagnostics_.warning(span, shortened(message));
   }
+  void fail() { hasFailed_ = true; }
+  /// Whether reading has come to an error: POV-Ray would have stopped there.
+  bool hasFailed() const { return hasFailed_; }
   [[noreturn]] void syntaxError(const Span& span, const std::string& message) {
     error(span, message);
     throw SyntaxError{};
@@ -105,6 +112,7 @@ class Reporter {
   int mostErrors_;
   bool isMuted_ = false;
   int warnings_ = 0;
+  bool hasFailed_ = false;
   int repeats_ = 0;
   std::unordered_set<std::size_t> seen_;
   Diagnostic ignored_;  ///< receives the notes of a repeated error

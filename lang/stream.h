@@ -12,10 +12,14 @@ namespace vestige::lang {
 struct OpenDirective {
   enum class Kind { branch, whileLoop, forLoop, choice };
   Kind kind = Kind::branch;
-  std::uint32_t first = 0;  ///< index of the directive that opened it
-  Cell counter = {};        ///< the variable of #for, with its last value and step
+  std::uint32_t first = 0;     ///< index of the directive that opened it
+  Cell counter = {};           ///< the variable of #for, with its last value and step
+  const Name* name = nullptr;  ///< of the counter
   double last = 0, step = 1;
-  std::uint32_t body = 0;  ///< of #for: index of the token behind the head
+  std::uint32_t body = 0;      ///< of #for: index of the token behind the head
+  double value = 0;            ///< of #switch
+  bool isBeforeCases = false;  ///< of #switch: the first #case chooses
+  bool isLastPart = false;     ///< of #if: #else has been read
 };
 
 /// A text or a macro's body that is being read.
