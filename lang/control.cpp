@@ -58,7 +58,10 @@ bool Directives::isOpen(std::uint32_t part) {
   const Token& last = f.token(endOf(part));
   if (last.kind == Token::Kind::directive) return *last.text == "end" && last.jump == first;
   std::uint32_t at = first;  // without #end: each part leads to the next one
-  while (at < part) at = f.list->tokens[at].jump;
+  while (at < part) {
+    context_.step(last.span);
+    at = f.list->tokens[at].jump;
+  }
   return at == part;
 }
 

@@ -78,6 +78,8 @@ const Row kQuick[] = {
     {"h08: a #switch that falls through 300,000 parts",
      [] { return "#switch (1) " + times(300'000, "#case (1) ") + "#end #error \"the end\""; },
      "the end"},
+    {"a #switch of 300,000 parts without an end",
+     [] { return "#switch (1) " + times(300'000, "#case (1) "); }, kTokens},
     {"h14: terminal escapes", [] { return std::string("#error \"\x1b[2J\x1b]0;title\x07\""); },
      "title"},
     {"100,000 open braces", [] { return times(100'000, "union { "); }, "--max-nesting"},
