@@ -26,7 +26,8 @@ void readSignature(Builtin& b) {
 const std::map<std::string, Builtin>& table() {
   static const std::map<std::string, Builtin> all = [] {
     std::map<std::string, Builtin> m;
-    for (const auto& part : {numberBuiltins(), vectorBuiltins(), stringBuiltins(), timeBuiltins()})
+    for (const auto& part :
+         {numberBuiltins(), vectorBuiltins(), stringBuiltins(), timeBuiltins(), objectBuiltins()})
       for (const Builtin& b : part) readSignature(m[b.name] = b);
     return m;
   }();
@@ -37,13 +38,20 @@ std::string plural(std::size_t n) {
   return std::to_string(n) + (n == 1 ? " argument" : " arguments");
 }
 
+bool isObject(const Datum& d) {
+  const auto* block = std::get_if<BlockPtr>(&d);
+  return block && ((*block)->kind == "shape" || (*block)->kind == "union");
+}
+
 bool fits(Datum& d, char letter) {
   if (letter == 's') return std::holds_alternative<TextPtr>(d);
   if (letter == 'a') return std::holds_alternative<ArrayPtr>(d);
+  if (letter == 'o') return isObject(d);
   const Numbers* n = numbers(d);
   if (!n) return false;
   if (letter == 'n') return n->size == 1;
   if (letter == 'c') return true;
+  if (letter == 't') return n->size == 3 && !n->isColour;
   if (n->size == 1) d = Numbers(n->v[0], n->v[0], n->v[0]);
   return n->size <= 3;
 }
@@ -51,6 +59,8 @@ bool fits(Datum& d, char letter) {
 const char* wanted(char letter) {
   return letter == 's'   ? "a string"
          : letter == 'a' ? "an array"
+         : letter == 'o' ? "a declared shape or union"
+         : letter == 't' ? "the name of a vector <x, y, z>"
          : letter == 'n' ? "a number"
          : letter == 'v' ? "a vector <x, y, z>"
                          : "a vector or a colour";

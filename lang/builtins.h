@@ -41,8 +41,9 @@ struct Call {
 struct Builtin {
   const char* name;
   /// One letter per argument: n number, v vector of at most three components (a number is
-  /// promoted), c components of anything that has numbers, s string, a array. Those after '|' may
-  /// be left out; '+' repeats the last one any number of times.
+  /// promoted), c components of anything that has numbers, s string, a array, o object, t the name
+  /// of a vector that the call assigns to. Those after '|' may be left out; '+' repeats the last
+  /// one any number of times.
   const char* signature;
   Datum (*apply)(const Call&);
   bool isPure = true;  ///< the same arguments give the same result
@@ -72,5 +73,6 @@ std::vector<Builtin> numberBuiltins();
 std::vector<Builtin> vectorBuiltins();
 std::vector<Builtin> stringBuiltins();
 std::vector<Builtin> timeBuiltins();
+std::vector<Builtin> objectBuiltins();
 
 }  // namespace vestige::lang

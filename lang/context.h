@@ -40,6 +40,10 @@ struct Context {
   Total elements =
       std::make_shared<std::atomic<std::int64_t>>(0);  ///< elements in live arrays and lists
   std::function<bool(const std::string&)> fileExists;
+  /// The element or entry that follows the name of this value, to be assigned to; null after an
+  /// error.
+  std::function<Datum*(Datum&)> placeBehind;
+  Numbers tracedNormal;  ///< of the last trace()
   /// The file in the include paths that declares a name, or "".
   std::function<std::string(const std::string&)> declaredIn;
 

@@ -20,6 +20,8 @@ class Directives {
   void obey(const Token& directive);
   /// Reads the arguments of a macro and makes the stream read its body.
   void expand(const Token& name);
+  /// The element or entry of a value that the next tokens lead to; null after an error.
+  Datum* place(Datum& whole) { return placeOf(whole, parser_.selectors(), false); }
 
  private:
   using Handler = void (Directives::*)(const Token&);

@@ -188,7 +188,8 @@ void ExpressionParser::unexpected(const std::string& expected) {
 
 void ExpressionParser::undeclared(const Token& name, const std::string& role) {
   std::vector<std::string> known = context_.symbols.names();
-  for (const std::string& b : builtinNames()) known.push_back(b);
+  for (const std::string& b : builtinNames())
+    if (isAnswered(*findBuiltin(b))) known.push_back(b);
   context_.step(name.span, kFileSteps);
   std::string hint = context_.suggest(name.span, *name.text, known);
   const std::string file = context_.declaredIn ? context_.declaredIn(*name.text) : "";
@@ -433,7 +434,7 @@ Operand ExpressionParser::name() {
   }
   if (t.word() == Word::defined) return definedTest(t);
   if (t.word() == Word::sum || t.word() == Word::prod) return series(t);
-  if (t.text->builtin) return call(t, {});
+  if (t.text->builtin && isAnswered(*t.text->builtin)) return call(t, {});
   if (Datum d = constantOf(t.word(), context_.version); !isBroken(d)) return {std::move(d), t.span};
   if (isSetting(t.word())) {
     if (function_ && t.word() == Word::now)
@@ -458,10 +459,13 @@ Operand ExpressionParser::call(const Token& name, const Datum& function) {
   // Where no argument is a vector, '<' can only compare, even if a comma was left out.
   const bool takesVectors = builtin && builtin->takesVectors;
   const With mode(*this, {!takesVectors, false, -1});
+  Target assigned;
   bool isMore = !stream_.peek().is(")");
   while (isMore) {
-    context_.budget.need(name.span, double(operands.size() * sizeof(Operand)));
-    operands.add(expression());
+    const bool isTarget = builtin && reading_ == Reading::values &&
+                          builtin->fits(operands.size() + 1) &&
+                          builtin->letter(operands.size()) == 't';
+    operands.add(isTarget ? target(assigned) : expression());
     isMore = stream_.accept(",");
     if (isMore || !begins(stream_.peek())) continue;
     if (builtin && operands.size() >= builtin->needsCommas) unexpected("',' or ')'");
@@ -471,8 +475,10 @@ Operand ExpressionParser::call(const Token& name, const Datum& function) {
   const auto kind = builtin ? Operation::Kind::builtin : Operation::Kind::invoke;
   const Span whole = context_.sources.join(name.span, stream_.last());
   context_.events.call(*name.text, whole);
-  return made({.kind = kind, .span = whole, .wordSpan = name.span, .name = name.text},
-              operands.all());
+  Operand result =
+      made({.kind = kind, .span = whole, .wordSpan = name.span, .name = name.text}, operands.all());
+  if (assigned.place && !isBroken(result.value)) *assigned.place = context_.tracedNormal;
+  return result;
 }
 
 Operand ExpressionParser::definedTest(const Token& word) {

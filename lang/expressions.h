@@ -92,6 +92,13 @@ class ExpressionParser {
   [[noreturn]] void misplacedColour();
   Operand channels(std::optional<Operand> base);
   Operand call(const Token& name, const Datum& function);
+  /// What an argument is assigned to; null: nothing.
+  struct Target {
+    Cell cell = nullptr;  ///< keeps it alive
+    Datum* place = nullptr;
+  };
+  Operand target(Target& target);
+  bool isAnswered(const Builtin& builtin) const;
   Datum keyBehindDot();
   Operand scoped(const Token& name, std::size_t table);
   Operand series(const Token& word);

@@ -16,6 +16,7 @@ namespace vestige::lang {
 class Sources;    // lang/source.h: texts and expansions that spans refer to
 class TextStore;  // lang/text_store.h
 class Observer;   // lang/observer.h
+class Measure;    // lang/measure.h
 
 /// Limits on the cost of hostile texts: steps and bytes bound time and memory whatever the text
 /// does (budget.h); the others find a mistake sooner. Each has its own message, which names the
@@ -63,6 +64,7 @@ struct Options {
   /// Keeps tokens from one run to the next, and holds buffers that count in place of files. Null:
   /// every file is read and tokenised.
   TextStore* store = nullptr;
+  Measure* measure = nullptr;    ///< answers trace(), inside(), ...; null: they are errors
   Observer* observer = nullptr;  ///< receives what the run finds; null: nothing does
 };
 

@@ -58,7 +58,9 @@ void Vocabulary::explain(Diagnostic& d, const std::string& kind, const std::stri
     d.notes.push_back({{}, why});
 }
 
-const char* insteadOf(const std::string& word) {
+namespace {
+
+const std::map<std::string, const char*>& replacements() {
   static const char* const brdf = "write 'brdf NAME { ... }', as in 'brdf lambert { diffuse Red }'";
   static const char* const glow = "write 'emission rgb 1' in the shape to make it shine";
   static const char* const glass = "write 'brdf glass { ior 1.5 }' in the shape";
@@ -142,8 +144,20 @@ const char* insteadOf(const std::string& word) {
       {"inside", objects},
       {"trace", objects},
       {"parallel", "write 'light distant { ... }'"}};
-  const auto found = words.find(word);
-  return found == words.end() ? nullptr : found->second;
+  return words;
+}
+
+}  // namespace
+
+const char* insteadOf(const std::string& word) {
+  const auto found = replacements().find(word);
+  return found == replacements().end() ? nullptr : found->second;
+}
+
+std::vector<std::string> replacedWords() {
+  std::vector<std::string> all;
+  for (const auto& [word, instead] : replacements()) all.push_back(word);
+  return all;
 }
 
 bool isTransformWord(const std::string& word) { return isTransform(wordOf(word)); }

@@ -50,6 +50,8 @@ class Vocabulary {
 
 /// The replacement for a word of POV-Ray that this language lacks; null for other words.
 const char* insteadOf(const std::string& word);
+/// All words that have one.
+std::vector<std::string> replacedWords();
 /// translate, rotate, scale, matrix, transform.
 bool isTransformWord(const std::string& word);
 inline bool isTransformWord(const Name& name) { return isTransform(name.word); }

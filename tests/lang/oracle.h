@@ -33,9 +33,10 @@ inline std::string joined(const std::string& lines) {
   return s;
 }
 
-inline void checkRows(std::span<const Row> rows, const Options& options = {}) {
+inline void checkRows(std::span<const Row> rows, const Options& options = {},
+                      const SchemaSource& source = schemas()) {
   for (const Row& row : rows) {
-    const std::string found = joined(debugOf(std::string(kPrelude) + row.text, options));
+    const std::string found = joined(debugOf(std::string(kPrelude) + row.text, options, source));
     INFO(row.text);
     INFO("expected " << row.expected);
     INFO("found    " << found);

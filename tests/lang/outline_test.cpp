@@ -185,7 +185,7 @@ TEST_CASE("the outline of any text is nested, cuts no token and loses nothing", 
 }
 
 TEST_CASE("the outline of a hostile text takes linear time and is not deep", "[lang]") {
-  constexpr int kMany = 1'000'000;
+  constexpr int kMany = 200'000;
   const auto seconds = [](const std::string& text) {
     const auto tokens = tokenisedText(text);
     const auto start = std::chrono::steady_clock::now();
@@ -193,11 +193,12 @@ TEST_CASE("the outline of a hostile text takes linear time and is not deep", "[l
     foldsOf(all, *tokens);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
+  CHECK(seconds(repeated(5 * kMany, "{")) < 5);
   for (const char* part : {"{", "}", "{}", "union { ", "#if (1) ", "#else ", "#end ",
                            "#if (1) { #end ", "#declare A = ", "#declare A = {", "#debug (",
                            "#macro A() {", "#switch (1) #case (1) } ", "a { ; } "}) {
     INFO(part);
-    CHECK(seconds(repeated(kMany, part)) < 10);
+    CHECK(seconds(repeated(kMany, part)) < 5);
     CHECK(flaw(repeated(10'000, part)) == "");
     CHECK(flaw(repeated(10'000, part) + repeated(10'000, "}") + repeated(10'000, "#end ")) == "");
   }

@@ -139,10 +139,11 @@ inline std::string printed(const Result& result) {
 }
 
 /// What #debug said, then the messages of all errors.
-inline std::string debugOf(const std::string& text, Options options = {}) {
+inline std::string debugOf(const std::string& text, Options options = {},
+                           const SchemaSource& source = schemas()) {
   std::string said;
   options.debug = [&](const std::string& s) { said += s; };
-  const Result result = readSceneText("test.scene", text, schemas(), options);
+  const Result result = readSceneText("test.scene", text, source, options);
   for (const Diagnostic& d : result.diagnostics.list())
     if (d.severity == Severity::error) said += "error: " + d.message + '\n';
   return said;
