@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <unordered_map>
 
 #include "lang/budget.h"
 #include "lang/events.h"
@@ -18,6 +19,15 @@ namespace vestige::lang {
 /// A level of braces or parentheses takes about 3 kB of the stack of 8 MB (on Linux), twice that
 /// with a sanitizer.
 inline constexpr int kDeepestNesting = 1000;
+
+/// The texts of -D are called by this and the name that they declare.
+inline const std::string kDefinition = "-D ";
+
+/// '#declare deprecated': what is said where the name is used.
+struct Deprecation {
+  std::string message;
+  bool isOnce = false;  ///< said at the first use only
+};
 
 struct Context {
   Context(const Options& o, Sources& t, Diagnostics& d, Edits& e)
@@ -34,7 +44,8 @@ struct Context {
   Events events{options.observer, symbols};
   double version = 3.7;  ///< set by #version, returned by `version`; has no other effect
   std::vector<std::uint32_t> streams;  ///< states of rand(), by what seed() returned
-  int evaluating = 0;                  ///< depth of functions' trees that are evaluated or compiled
+  std::unordered_map<const Name*, Deprecation> deprecations;
+  int evaluating = 0;       ///< depth of functions' trees that are evaluated or compiled
   int nesting = 0;          ///< depth of braces, parentheses and calls: bounds our own stack
   std::int64_t blocks = 0;  ///< number created so far, copies included
   Total elements =
@@ -64,6 +75,18 @@ struct Context {
                             " elements: --max-array-elements raises the limit");
   }
   void step(const Span& span, std::int64_t count = 1) { budget.step(span, count); }
+  /// A declared name stands here.
+  void used(const Token& name) {
+    events.used(name);
+    warnOfDeprecation(name);
+  }
+  void warnOfDeprecation(const Token& name) {
+    if (deprecations.empty()) return;
+    const auto found = deprecations.find(name.text);
+    if (found == deprecations.end()) return;
+    reporter.warning(name.span, found->second.message);
+    if (found->second.isOnce) deprecations.erase(found);
+  }
   /// "; did you mean 'x'?" for a misspelt word, which the edit of the next diagnostic replaces; or
   /// nothing. Comparing it with each name is work.
   std::string suggest(const Span& span, const std::string& word,

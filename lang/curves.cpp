@@ -16,7 +16,7 @@ SplinePtr Parser::spline() {
   auto s = std::make_shared<Spline>();
   if (const auto* base = namedSpline()) {
     *s = **base;
-    context_.events.used(stream_.peek());
+    context_.used(stream_.peek());
     context_.budget.copy(word, s->times.size() * Spline::kPointBytes);
     stream_.next();
   }

@@ -37,7 +37,7 @@ void Directives::openFile(const Token& directive) {
 /// The open file of the name that comes next; null if the name's own error was reported before.
 DataFilePtr Directives::openedFile(const Token& directive, Token& name) {
   name = plainName("#" + *directive.text);
-  context_.events.used(name);
+  context_.used(name);
   const Datum* value = context_.symbols.value(name.text);
   if (value && isBroken(*value)) return nullptr;
   const auto* file = value ? std::get_if<DataFilePtr>(value) : nullptr;

@@ -110,7 +110,7 @@ Affine Parser::transformBlock() {
   const Nested nested(context_, word);
   const Token ahead = stream_.peek();
   if (const AffinePtr a = named(ahead)) {
-    context_.events.used(ahead);
+    context_.used(ahead);
     stream_.next();
     return *a;
   }
@@ -123,7 +123,7 @@ Affine Parser::transformBlock() {
       all = transform() * all;
     } else if (const AffinePtr a = named(t)) {
       all = *a * all;
-      context_.events.used(t);
+      context_.used(t);
       stream_.next();
     } else if (t.isWord("inverse")) {
       stream_.next();

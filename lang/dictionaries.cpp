@@ -146,7 +146,7 @@ bool Directives::isDictionary(const Token& name) {
 
 // ('#declare' | '#local') name selector { selector } '=' value [';']
 void Directives::assignEntry(const Token& directive, const Token& name) {
-  context_.events.used(name);
+  context_.used(name);
   const Cell cell = context_.symbols.find(name.text);
   const auto path = parser_.selectors();
   if (!stream_.acceptRaw("=")) {

@@ -90,18 +90,28 @@ Token Directives::plainName(const std::string& before) {
       name.span, "expected a name after " + before + ", found " + describe(name, context_.sources));
 }
 
+/// Whether a directive is that of a -D.
+bool Directives::isGiven(const Token& directive) const {
+  const int file = directive.span.file;
+  return file >= 0 && context_.sources.text(file).name.starts_with(kDefinition);
+}
+
 /// A name that may be declared. `scope`: the table if it is given; null: may not be given.
 Token Directives::newName(const Token& directive, std::optional<std::size_t>* scope) {
   Token name = plainName("#" + *directive.text);
   if (scope) *scope = parser_.expressions().scope(name);
   const std::string& word = *name.text;
+  if (isSetting(name.word()) && !isGiven(directive))
+    context_.reporter.syntaxError(name.span, "'" + word +
+                                                 "' has its value from the program: give it " +
+                                                 "there, as in '-D " + word + "=0.5'");
   if (context_.symbols.find(name.text)) return name;
   if (const char* instead = insteadOf(word))
     context_.reporter.syntaxError(name.span, "'" + word + "' is a word of POV-Ray's: " + instead);
   const bool isTaken = isExpressionWord(*name.text) || isTransformWord(*name.text) ||
                        parser_.words().opensBlock(*name.text);
   // (Parameters of macros may be called like u and v, and then be assigned to: found above.)
-  if (isTaken && !isSetting(wordOf(word)))
+  if (isTaken && !isSetting(name.word()))
     context_.reporter.syntaxError(name.span, "'" + word +
                                                  "' is a word of the language and cannot "
                                                  "be declared; a name with a capital "
@@ -109,10 +119,27 @@ Token Directives::newName(const Token& directive, std::optional<std::size_t>* sc
   return name;
 }
 
-// ('#declare' | '#local') name { '[' sum ']' } '=' value [';']
+// [ 'deprecated' [ 'once' ] [ string ] ]
+std::optional<Deprecation> Directives::deprecated() {
+  if (!stream_.peekRaw().isWord("deprecated")) return {};
+  stream_.nextRaw();
+  Deprecation found;
+  found.isOnce = stream_.peekRaw().isWord("once");
+  if (found.isOnce) stream_.nextRaw();
+  const Token t = stream_.peekRaw();
+  if (t.kind == Token::Kind::string)
+    found.message = *stream_.nextRaw().text;
+  else if (t.isName())
+    found.message = "'" + *t.text + "' is deprecated";
+  context_.budget.keep(std::int64_t(sizeof(found) + found.message.size()));
+  return found;
+}
+
+// ('#declare' | '#local') [deprecated] name { '[' sum ']' } '=' value [';']
 void Directives::declare(const Token& directive) {
   if (stream_.peekRaw().is("(")) return declareTuple(directive);
   std::optional<std::size_t> scope;
+  std::optional<Deprecation> deprecation = deprecated();
   const Token name = newName(directive, &scope);
   if (isDictionary(name)) return assignEntry(directive, name);
   if (stream_.peekRaw().is("[")) return assignElement(directive, name);
@@ -129,7 +156,9 @@ void Directives::declare(const Token& directive) {
   const auto assign = [&](Datum value) {
     context_.events.declared(name, value);
     *context_.symbols.in(table, name.text) = {std::move(value), name.span};
+    if (deprecation) context_.deprecations[name.text] = *std::exchange(deprecation, {});
   };
+  context_.warnOfDeprecation(name);
   try {
     Datum value = parser_.value(ExpressionParser::Place::declaration).value;
     const bool isNumbers = numbers(value) != nullptr;
@@ -149,7 +178,7 @@ void Directives::needSemicolon(bool isNumbers, const std::string& name) {
 }
 
 void Directives::assignElement(const Token& directive, const Token& name) {
-  context_.events.used(name);
+  context_.used(name);
   const Cell cell = context_.symbols.find(name.text);
   std::vector<double> indices;
   std::vector<Span> spans;

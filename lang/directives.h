@@ -53,6 +53,8 @@ class Directives {
   void leave(const Token& directive);
   bool holds(const std::string& word);
   bool isDefined();
+  bool isGiven(const Token& directive) const;
+  std::optional<Deprecation> deprecated();
   bool testWhile(std::uint32_t first);
   bool isWithin(const OpenDirective& loop, const Span& span);
   void choose(std::uint32_t part);

@@ -428,7 +428,7 @@ Operand ExpressionParser::name() {
     return made({.kind = Operation::Kind::parameter, .slot = *slot, .wordSpan = t.span}, {});
   }
   if (const Datum* value = declared(t)) {
-    context_.events.used(t);
+    context_.used(t);
     const bool isFunction = std::holds_alternative<FunctionPtr>(*value);
     return isFunction && stream_.peekRaw().is("(") ? call(t, *value) : Operand{*value, t.span};
   }
@@ -522,11 +522,11 @@ bool ExpressionParser::isDefined(Token name) {
     const auto* array = std::get_if<ArrayPtr>(&value);
     const Numbers* n = numbers(index);
     const int size = array ? (*array)->sizes[dimension] : 0;
-    if (!isKnown || !n || !(n->v[0] > -1 && n->v[0] < size)) {
+    if (!isKnown || !n || !(n->v[0] >= -kTruth && n->v[0] + kTruth < size)) {
       isKnown = false;
       continue;
     }
-    at = at * std::size_t(size) + std::size_t(n->v[0]);
+    at = at * std::size_t(size) + std::size_t(n->v[0] + kTruth);
     if (++dimension < (*array)->sizes.size()) continue;
     value = Datum((*array)->data[at]);
     isKnown = !isBroken(value);

@@ -43,7 +43,8 @@ class Reader {
       push(includes_.add(name, text));
       const auto& definitions = context_.options.definitions;
       for (auto d = definitions.rbegin(); d != definitions.rend(); ++d)
-        push(includes_.add("-D " + d->first, "#declare " + d->first + " = " + d->second + ";"));
+        push(includes_.add(kDefinition + d->first,
+                           "#declare " + d->first + " = " + d->second + ";"));
       parser_.scene(result_.scene);
     } catch (const Stop&) {
     } catch (const std::bad_alloc&) {

@@ -62,7 +62,7 @@ constexpr std::int64_t kArgumentBytes = sizeof(Symbol) + 64;
 void Directives::expand(const Token& name) {
   const MacroPtr m = std::get<MacroPtr>(*context_.symbols.value(name.text));
   const Nested nested(context_, name.span);
-  context_.events.used(name);
+  context_.used(name);
   checkMacroDepth(name);
   if (!stream_.peekRaw().is("("))
     context_.reporter.syntaxError(name.span, "'" + *name.text +
@@ -117,7 +117,7 @@ Cell Directives::argument(const std::string& macro) {
   if (t.kind == Token::Kind::name && (after.is(",") || after.is(")")))
     if (Cell cell = context_.symbols.find(t.text)) {
       stream_.next();
-      context_.events.used(t);
+      context_.used(t);
       return cell;
     }
   const bool isStart = parser_.expressions().begins(t) || t.kind == Token::Kind::name;

@@ -22,7 +22,7 @@ Operand ExpressionParser::target(Target& target) {
     undeclared(name, "vector");
     throw SyntaxError{};
   }
-  context_.events.used(name);
+  context_.used(name);
   target.place = context_.placeBehind(target.cell->value);
   return {target.place ? *target.place : Datum(), context_.sources.join(name.span, stream_.last())};
 }

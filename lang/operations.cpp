@@ -266,7 +266,7 @@ std::optional<std::size_t> elementAt(Context& context, const Array& array,
   }
   std::size_t at = 0;
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    const double x = std::trunc(indices[i]);
+    const double x = std::floor(indices[i] + kTruth);
     if (!(x >= 0 && x < array.sizes[i])) {
       context.reporter.error(spans[i], "this index runs from 0 to " +
                                            std::to_string(array.sizes[i] - 1) + ", found " +

@@ -97,7 +97,7 @@ Block Parser::objectBlock() {
   if (t.kind == Token::Kind::name && words_.opensBlock(*t.text)) {
     start.base = std::make_shared<const Block>(block());
   } else if ((start.base = declaredBlock(t))) {
-    context_.events.used(t);
+    context_.used(t);
     stream_.next();
     start.span = context_.sources.join(start.span, t.span);
   } else if (t.kind == Token::Kind::name && !context_.symbols.find(t.text)) {
@@ -161,7 +161,7 @@ bool Parser::headName(const std::string& kind, Head& head) {
   const auto& parts = head.schema ? head.schema->children : std::vector<std::string>();
   if (std::find(parts.begin(), parts.end(), kind) != parts.end()) return false;
   stream_.next();
-  if (declared) context_.events.used(t);
+  if (declared) context_.used(t);
   head.base = declared;
   head.schema = named ? named : words_.find(kind, declared->plugin);
   head.span = context_.sources.join(head.span, t.span);
@@ -345,7 +345,7 @@ std::optional<Block> Parser::pigment() {
   }
   const BlockPtr declared = declaredBlock(t);
   if (!declared || declared->kind != "pigment") return {};
-  context_.events.used(t);
+  context_.used(t);
   stream_.next();
   countBlocks(context_, *declared, t.span);
   return *declared;
@@ -407,7 +407,7 @@ void Parser::declaredItem(BlockBuilder& b, const Token& t, const Block& declared
     const Datum found = std::make_shared<const Block>(declared);
     misplaced(b, t, "'" + *t.text + "' is " + describe(found) + ", which", declared.kind);
   }
-  context_.events.used(t);
+  context_.used(t);
   stream_.next();
   countBlocks(context_, declared, t.span);
   b.add(declared);

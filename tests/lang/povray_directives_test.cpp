@@ -70,6 +70,12 @@ const Row kRefused[] = {
     {"P(1) #declare A=B; P(2)", "1.000000000000"},
     {"P(1) #declare sin=1; P(2)", "1.000000000000"},
     {"P(1) #undef 5 P(2)", "1.000000000000"},
+    {"P(1) #declare clock=1; P(clock)", "1.000000000000"},
+    {"P(1) #local now=3; P(now)", "1.000000000000"},
+    {"P(1) #declare Z=array[3]{1,2,3}; P(Z[-0.5])", "1.000000000000"},
+    {"P(1) #declare Z=array[3]{1,2,3}; P(Z[-1e-9])", "1.000000000000"},
+    {"P(1) #declare Z=array[3]{1,2,3}; P(Z[3-1e-11])", "1.000000000000"},
+    {"P(1) #declare deprecated = 5; P(deprecated)", "1.000000000000"},
     {"P(1) #junk P(2)", "1.000000000000"},
     // clang-format on
 };
@@ -77,6 +83,33 @@ const Row kRefused[] = {
 }  // namespace
 
 TEST_CASE("loops and choices give POV-Ray's results", "[lang]") { checkRows(kChoicesAndLoops); }
+
+TEST_CASE("indices are rounded down with POV-Ray's tolerance", "[lang]") {
+  const Row rows[] = {
+      {"#declare Z=array[3]{1,2,3}; P(Z[1-1e-9]) P(Z[1-1e-11]) P(Z[-1e-11]) P(Z[2.999])",
+       "1.000000000000|2.000000000000|1.000000000000|3.000000000000"},
+      {"#declare Z=array[3]{1,2,3}; #declare Z[1.9999999999999]=7; P(Z[2])", "7.000000000000"}};
+  checkRows(rows);
+}
+
+/// The warnings are POV-Ray's in number and place.
+TEST_CASE("a deprecated name warns where it is used", "[lang]") {
+  const auto warnings = [](const std::string& text) {
+    std::string all;
+    const Result r = read(text);
+    for (const Diagnostic& d : r.diagnostics.list())
+      all += std::to_string(d.span.begin) + ":" + d.message + "|";
+    return all;
+  };
+  CHECK(warnings("#declare deprecated A = 5; #declare B = A;") == "40:'A' is deprecated|");
+  CHECK(warnings("#declare deprecated once \"m\" A = 5; #declare B = A; #declare C = A;") ==
+        "49:m|");
+  CHECK(warnings("#local deprecated \"m\" A = 5; #declare B = A; #declare C = A;") == "42:m|58:m|");
+  CHECK(warnings("#declare deprecated A = 5; #declare A = 6;") == "36:'A' is deprecated|");
+  CHECK(warnings("#declare deprecated once A = 5;") == "");
+  CHECK(warnings("#declare deprecated S = sphere { 0, 1 } object { S }") ==
+        "49:'S' is deprecated|");
+}
 
 TEST_CASE("after an error #debug is silent, as POV-Ray has stopped", "[lang]") {
   for (const Row& row : kRefused) {
