@@ -53,7 +53,7 @@ struct Context {
   std::function<bool(const std::string&)> fileExists;
   /// The element or entry that follows the name of this value, to be assigned to; null after an
   /// error.
-  std::function<Datum*(Datum&)> placeBehind;
+  std::function<Datum*(Symbol&)> placeBehind;
   Numbers tracedNormal;  ///< of the last trace()
   /// The file in the include paths that declares a name, or "".
   std::function<std::string(const std::string&)> declaredIn;

@@ -156,7 +156,7 @@ void Directives::assignEntry(const Token& directive, const Token& name) {
   }
   Datum value = parser_.value(ExpressionParser::Place::declaration).value;
   needSemicolon(numbers(value) != nullptr, *name.text);
-  if (Datum* place = placeOf(cell->value, path, true)) *place = std::move(value);
+  if (Datum* place = placeOf(targetOf(*cell), path, true)) *place = std::move(value);
 }
 
 /// #undef of an element or an entry.
@@ -169,11 +169,11 @@ void Directives::forget(const Token& name) {
   }
   const Parser::Selector last = path.back();
   if (!last.isKey) {
-    if (Datum* place = placeOf(cell->value, path, false)) *place = {};
+    if (Datum* place = placeOf(targetOf(*cell), path, false)) *place = {};
     return;
   }
   path.pop_back();
-  Datum* place = placeOf(cell->value, path, false);
+  Datum* place = placeOf(targetOf(*cell), path, false);
   auto* dictionary = place ? std::get_if<DictionaryPtr>(place) : nullptr;
   if (!dictionary) {
     if (place && !isBroken(*place))

@@ -155,7 +155,7 @@ void Directives::declare(const Token& directive) {
                                                          : context_.symbols.tableOf(name.text);
   const auto assign = [&](Datum value) {
     context_.events.declared(name, value);
-    *context_.symbols.in(table, name.text) = {std::move(value), name.span};
+    this->assign(*context_.symbols.in(table, name.text), std::move(value), name.span);
     if (deprecation) context_.deprecations[name.text] = *std::exchange(deprecation, {});
   };
   context_.warnOfDeprecation(name);
@@ -177,11 +177,9 @@ void Directives::needSemicolon(bool isNumbers, const std::string& name) {
   context_.reporter.error(stream_.behindLast(), "expected ';' after the value of '" + name + "'");
 }
 
-void Directives::assignElement(const Token& directive, const Token& name) {
-  context_.used(name);
-  const Cell cell = context_.symbols.find(name.text);
-  std::vector<double> indices;
-  std::vector<Span> spans;
+// { '[' sum ']' }
+Directives::Indices Directives::indices() {
+  Indices all;
   while (stream_.peekRaw().is("[")) {
     const Span open = stream_.nextRaw().span;
     const auto index = parser_.expressions().evaluate(ExpressionParser::Place::setting);
@@ -191,10 +189,55 @@ void Directives::assignElement(const Token& directive, const Token& name) {
         context_.reporter.error(index.span, "an index is a number, found " + describe(index.value));
       throw SyntaxError{};
     }
-    indices.push_back(n->v[0]);
-    spans.push_back(index.span);
+    context_.budget.need(open, double(all.values.size() * (sizeof(double) + sizeof(Span))));
+    all.values.push_back(n->v[0]);
+    all.spans.push_back(index.span);
     parser_.expressions().expect("]", open, "[");
   }
+  return all;
+}
+
+/// The place in the data of an array that the next of its indices lead to; nothing if an error was
+/// reported. `next`: moves behind them.
+std::optional<std::size_t> Directives::placeIn(const Datum& whole, const Indices& indices,
+                                               std::size_t& next) {
+  const auto* array = std::get_if<ArrayPtr>(&whole);
+  if (!array) {
+    context_.reporter.error(indices.spans[next], "'[' follows an array, found " + describe(whole));
+    return {};
+  }
+  const std::size_t count = std::min((*array)->sizes.size(), indices.values.size() - next);
+  const auto some = [&](auto& all) {
+    const auto from = all.begin() + std::ptrdiff_t(next);
+    return std::decay_t<decltype(all)>(from, from + std::ptrdiff_t(count));
+  };
+  const auto at = elementAt(context_, **array, some(indices.values), some(indices.spans));
+  next += count;
+  return at;
+}
+
+/// The argument of a macro that is an element of an array: the parameter stands for it.
+Cell Directives::elementArgument(const Token& name) {
+  auto element = std::make_shared<ElementOf>();
+  element->array = context_.symbols.find(name.text);
+  context_.used(name);
+  const Indices all = indices();
+  const Span span = context_.sources.join(name.span, stream_.last());
+  const Datum* place = &valueOf(*element->array);
+  for (std::size_t next = 0; next < all.values.size();) {
+    const auto at = placeIn(*place, all, next);
+    if (!at) return std::make_shared<Symbol>(Symbol{{}, span});
+    element->places.push_back(*at);
+    place = &std::get<ArrayPtr>(*place)->data[*at];
+  }
+  if (isBroken(*place)) context_.reporter.error(span, "this element of the array has no value yet");
+  return std::make_shared<Symbol>(Symbol{*place, span, std::move(element)});
+}
+
+void Directives::assignElement(const Token& directive, const Token& name) {
+  context_.used(name);
+  const Cell cell = context_.symbols.find(name.text);
+  const Indices all = indices();
   if (!stream_.acceptRaw("=")) {
     const Token found = stream_.peekRaw();
     context_.reporter.syntaxError(found.span, "expected '=' in '#" + *directive.text + "', found " +
@@ -202,31 +245,50 @@ void Directives::assignElement(const Token& directive, const Token& name) {
   }
   Datum value = parser_.value(ExpressionParser::Place::declaration).value;
   needSemicolon(numbers(value) != nullptr, *name.text);
-  if (cell && isBroken(cell->value)) return;
-  if (!cell || !std::holds_alternative<ArrayPtr>(cell->value)) {
+  if (cell && isBroken(valueOf(*cell))) return;
+  if (!cell || !std::holds_alternative<ArrayPtr>(valueOf(*cell))) {
     context_.reporter.error(name.span, "'" + *name.text + "' is not an array: write '#declare " +
                                            *name.text + " = array[10];' first");
     return;
   }
+  if (*directive.text == "local" &&
+      !context_.symbols.findIn(context_.symbols.innermost(), name.text)) {
+    context_.reporter.warning(name.span, "'" + *name.text +
+                                             "' is not local here, so this changes nothing, as in "
+                                             "POV-Ray: write '#declare'");
+    return;
+  }
   // Arrays are values: other owners keep the old element. Without other owners no copy is made.
-  Datum* place = &cell->value;
-  for (std::size_t next = 0; next < indices.size();) {
-    auto* array = std::get_if<ArrayPtr>(place);
-    if (!array) {
-      context_.reporter.error(spans[next], "'[' follows an array, found " + describe(*place));
-      return;
-    }
-    const std::size_t count = std::min((*array)->sizes.size(), indices.size() - next);
-    const auto from = [next](auto& all) { return all.begin() + std::ptrdiff_t(next); };
-    const auto length = std::ptrdiff_t(count);
-    const auto at = elementAt(context_, **array, {from(indices), from(indices) + length},
-                              {from(spans), from(spans) + length});
+  Datum* place = &targetOf(*cell);
+  for (std::size_t next = 0; next < all.values.size();) {
+    const auto at = placeIn(*place, all, next);
     if (!at) return;
-    if (array->use_count() > 1) *array = copied(name.span, **array);
-    place = &const_cast<Array&>(**array).data[*at];
-    next += count;
+    auto& array = std::get<ArrayPtr>(*place);
+    if (array.use_count() > 1) array = copied(name.span, *array);
+    place = &const_cast<Array&>(*array).data[*at];
   }
   *place = std::move(value);
+}
+
+/// Where the value of a name is kept. Arrays with other owners are copied on the way to an element.
+Datum& Directives::targetOf(Symbol& symbol) {
+  if (!symbol.element) return symbol.value;
+  Datum* place = &targetOf(*symbol.element->array);
+  for (const std::size_t i : symbol.element->places) {
+    auto* array = std::get_if<ArrayPtr>(place);
+    if (!array || i >= (*array)->data.size()) {  // the array has got another value
+      symbol.element = nullptr;
+      return symbol.value;
+    }
+    if (array->use_count() > 1) *array = copied(symbol.declared, **array);
+    place = &const_cast<Array&>(**array).data[i];
+  }
+  return *place;
+}
+
+void Directives::assign(Symbol& symbol, Datum value, const Span& declared) {
+  targetOf(symbol) = std::move(value);
+  symbol.declared = declared;
 }
 
 ArrayPtr Directives::copied(const Span& span, const Array& array) {

@@ -21,7 +21,7 @@ class Directives {
   /// Reads the arguments of a macro and makes the stream read its body.
   void expand(const Token& name);
   /// The element or entry of a value that the next tokens lead to; null after an error.
-  Datum* place(Datum& whole) { return placeOf(whole, parser_.selectors(), false); }
+  Datum* place(Symbol& whole) { return placeOf(targetOf(whole), parser_.selectors(), false); }
 
  private:
   using Handler = void (Directives::*)(const Token&);
@@ -53,6 +53,17 @@ class Directives {
   void leave(const Token& directive);
   bool holds(const std::string& word);
   bool isDefined();
+  struct Indices {
+    std::vector<double> values;
+    std::vector<Span> spans;
+  };
+  Indices indices();
+  std::optional<std::size_t> placeIn(const Datum& whole, const Indices& indices, std::size_t& next);
+  bool isElementAhead() const;
+  bool isArgumentAhead();
+  Cell elementArgument(const Token& name);
+  Datum& targetOf(Symbol& symbol);
+  void assign(Symbol& symbol, Datum value, const Span& declared);
   bool isGiven(const Token& directive) const;
   std::optional<Deprecation> deprecated();
   bool testWhile(std::uint32_t first);

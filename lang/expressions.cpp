@@ -503,8 +503,8 @@ bool ExpressionParser::isDefined(Token name) {
                           : context_.symbols.declaration(name.text);
     context_.events.used(name, *at);
   }
-  Datum value = cell ? cell->value : Datum();
-  bool isKnown = cell && !isClosed(cell->value);
+  Datum value = cell ? valueOf(*cell) : Datum();
+  bool isKnown = cell && !isClosed(value);
   std::size_t dimension = 0, at = 0;
   while (stream_.peekRaw().is("[") || stream_.peekRaw().is(".")) {
     const bool isNamed = stream_.peekRaw().is(".");

@@ -33,7 +33,7 @@ class Reader {
       const std::string path = includes_.find(file, 0, tried);
       return !path.empty() && includes_.isAllowed(path);
     };
-    context_.placeBehind = [this](Datum& whole) { return directives_.place(whole); };
+    context_.placeBehind = [this](Symbol& whole) { return directives_.place(whole); };
     predefine(context_, words_, name);
     context_.declaredIn = [this](const std::string& name) { return includes_.declaredIn(name); };
   }

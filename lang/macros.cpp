@@ -27,7 +27,7 @@ void Directives::macro(const Token& directive) {
   }
 }
 
-// parameter := ['optional'] name ['=' sum]
+// { ['optional'] name ['=' sum] [','] }
 void Directives::macroParameters(Macro& m) {
   const Span open = stream_.peekRaw().span;
   if (!stream_.acceptRaw("("))
@@ -44,7 +44,7 @@ void Directives::macroParameters(Macro& m) {
       p.initial = parser_.value(ExpressionParser::Place::setting).value;
     }
     m.parameters.push_back(std::move(p));
-    if (!stream_.acceptRaw(",")) break;
+    if (!stream_.acceptRaw(",") && !stream_.peekRaw().isName()) break;  // as in POV-Ray
   }
   if (!stream_.acceptRaw(")")) {
     const Token found = stream_.peekRaw();
@@ -57,7 +57,7 @@ void Directives::macroParameters(Macro& m) {
 /// Bytes of an argument that is no name.
 constexpr std::int64_t kArgumentBytes = sizeof(Symbol) + 64;
 
-// call := name '(' [ argument { ',' argument } ] ')'
+// call := name '(' [ argument { [','] argument } ] ')'
 // A faulty call expands to nothing.
 void Directives::expand(const Token& name) {
   const MacroPtr m = std::get<MacroPtr>(*context_.symbols.value(name.text));
@@ -75,7 +75,7 @@ void Directives::expand(const Token& name) {
   while (!stream_.peek().is(")")) {
     held.grow(kArgumentBytes);
     cells.push_back(argument(*name.text));
-    if (!stream_.accept(",")) break;
+    if (!stream_.accept(",") && !isArgumentAhead()) break;  // as in POV-Ray
   }
   parser_.expressions().expect(")", open, "(");
   const Span call = context_.sources.join(name.span, stream_.last());
@@ -110,7 +110,27 @@ void Directives::readBody(const Macro& m, const std::vector<Cell>& arguments, co
   }
 }
 
-// argument := name | value                  a bare name is handed over itself, not its value
+bool Directives::isArgumentAhead() {
+  const Token& t = stream_.peek();
+  return t.isName() || parser_.expressions().begins(t);
+}
+
+/// Whether the argument ahead is an element of an array, and nothing behind it: A[1], A[I][2].
+bool Directives::isElementAhead() const {
+  constexpr int kLongest = 100;  // tokens looked at; longer indices give the element's value
+  int depth = 0;
+  for (int i = 1; i < kLongest; ++i) {
+    const Token t = stream_.peekRaw(i);
+    if (depth == 0 && !t.is("[")) return i > 1 && (t.is(",") || t.is(")"));
+    if (t.is("[")) ++depth;
+    if (t.is("]")) --depth;
+    if (t.kind == Token::Kind::end || t.kind == Token::Kind::directive) return false;
+  }
+  return false;
+}
+
+// argument := name | element | value        a name or an element is handed over itself, not its
+// value
 Cell Directives::argument(const std::string& macro) {
   const Token t = stream_.peek();
   const Token after = stream_.peekRaw(1);
@@ -120,8 +140,13 @@ Cell Directives::argument(const std::string& macro) {
       context_.used(t);
       return cell;
     }
-  const bool isStart = parser_.expressions().begins(t) || t.kind == Token::Kind::name;
-  if (!isStart) parser_.expressions().unexpected("an argument of the macro '" + macro + "' or ')'");
+  if (const Datum* whole = t.isName() && after.is("[") ? context_.symbols.value(t.text) : nullptr;
+      whole && std::holds_alternative<ArrayPtr>(*whole) && isElementAhead()) {
+    stream_.next();
+    return elementArgument(t);
+  }
+  if (!isArgumentAhead())
+    parser_.expressions().unexpected("an argument of the macro '" + macro + "' or ')'");
   auto value = parser_.value(ExpressionParser::Place::setting);
   return std::make_shared<Symbol>(Symbol{std::move(value.value), value.span});
 }

@@ -23,7 +23,7 @@ Operand ExpressionParser::target(Target& target) {
     throw SyntaxError{};
   }
   context_.used(name);
-  target.place = context_.placeBehind(target.cell->value);
+  target.place = context_.placeBehind(*target.cell);
   return {target.place ? *target.place : Datum(), context_.sources.join(name.span, stream_.last())};
 }
 

@@ -179,9 +179,9 @@ void Parser::unknownPlugin(const std::string& kind, const Token& found, const st
   const std::vector<std::string> plugins = known;
   for (const std::string& name : context_.symbols.names()) known.push_back(name);
   if (const Cell cell = context_.symbols.find(found.text)) {
-    if (isBroken(cell->value)) throw SyntaxError{};  // already reported where it was declared
+    if (isBroken(valueOf(*cell))) throw SyntaxError{};  // already reported where it was declared
     context_.reporter.syntaxError(found.span, "expected a " + kind + ", found " +
-                                                  describe(cell->value) + ", which '" +
+                                                  describe(valueOf(*cell)) + ", which '" +
                                                   *found.text + "' stands for");
   }
   const std::string near = context_.suggest(found.span, *found.text, known);
@@ -258,7 +258,7 @@ bool Parser::isValue(const BlockBuilder& b, const Token& t, bool afterComma) con
   if (b.row(*t.text) && !(afterComma && next)) return false;
   if (isTransformWord(*t.text) || words_.opensBlock(*t.text)) return false;
   const Cell cell = context_.symbols.find(t.text);
-  if (cell && std::holds_alternative<AffinePtr>(cell->value)) return false;
+  if (cell && std::holds_alternative<AffinePtr>(valueOf(*cell))) return false;
   const bool isMeant = afterComma && next && !cell && !insteadOf(*t.text);  // misspelt, perhaps
   return (expressions_.begins(t) && !declaredBlock(t)) || isMeant;
 }
@@ -488,7 +488,7 @@ void Parser::skipToItem(const BlockBuilder& b, int level) {
 BlockPtr Parser::declaredBlock(const Token& name) const {
   if (name.kind != Token::Kind::name) return nullptr;
   const Cell cell = context_.symbols.find(name.text);
-  const auto* block = cell ? std::get_if<BlockPtr>(&cell->value) : nullptr;
+  const auto* block = cell ? std::get_if<BlockPtr>(&valueOf(*cell)) : nullptr;
   return block ? *block : nullptr;
 }
 

@@ -30,9 +30,9 @@ Operand ExpressionParser::scoped(const Token& name, std::size_t table) {
   const Cell cell = context_.symbols.findIn(table, name.text);
   if (cell) {
     context_.events.used(name, *context_.symbols.declarationIn(table, name.text));
-    const bool isFunction = std::holds_alternative<FunctionPtr>(cell->value);
-    return isFunction && stream_.peekRaw().is("(") ? call(name, cell->value)
-                                                   : Operand{cell->value, name.span};
+    const Datum& value = valueOf(*cell);
+    const bool isFunction = std::holds_alternative<FunctionPtr>(value);
+    return isFunction && stream_.peekRaw().is("(") ? call(name, value) : Operand{value, name.span};
   }
   context_.reporter.error(name.span, std::string(table == 0 ? "no global" : "no local") +
                                          " value is called '" + *name.text + "'");

@@ -29,12 +29,33 @@ struct Macro {
   Span declared;
 };
 
+struct ElementOf;
 struct Symbol {
   Datum value;
   Span declared;
+  /// Of a macro's parameter that stands for an element of an array; null: `value` counts.
+  std::shared_ptr<const ElementOf> element = nullptr;
 };
 /// Shared between a name and the macro parameters that refer to it.
 using Cell = std::shared_ptr<Symbol>;
+
+/// An element of an array, of an array in it, and so on.
+struct ElementOf {
+  Cell array;
+  std::vector<std::size_t> places;  ///< in Array::data, outermost first
+};
+
+/// The value that a name has now. If the array of its element is gone, the one that it had first.
+inline const Datum& valueOf(const Symbol& symbol) {
+  if (!symbol.element) return symbol.value;
+  const Datum* place = &valueOf(*symbol.element->array);
+  for (const std::size_t i : symbol.element->places) {
+    const auto* array = std::get_if<ArrayPtr>(place);
+    if (!array || i >= (*array)->data.size()) return symbol.value;
+    place = &(*array)->data[i];
+  }
+  return *place;
+}
 
 /// Every name has a stack of bindings, innermost last: finding one takes the same time at any
 /// depth.
@@ -58,7 +79,7 @@ class Symbols {
   /// The value of the nearest binding, or null.
   const Datum* value(const Name* name) const {
     const Binding* nearest = nearestOf(name);
-    return nearest ? &nearest->cell->value : nullptr;
+    return nearest ? &valueOf(*nearest->cell) : nullptr;
   }
   /// The binding in one table, or null.
   Cell findIn(std::size_t table, const Name* name) const {

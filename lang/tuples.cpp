@@ -36,7 +36,7 @@ void Directives::declareTuple(const Token& directive) {
     const Cell cell =
         isLocal ? context_.symbols.local(names[i].text) : context_.symbols.declare(names[i].text);
     context_.events.declared(names[i], all[i]);
-    *cell = {std::move(all[i]), names[i].span};
+    assign(*cell, std::move(all[i]), names[i].span);
   }
 }
 

@@ -84,6 +84,35 @@ const Row kRefused[] = {
 
 TEST_CASE("loops and choices give POV-Ray's results", "[lang]") { checkRows(kChoicesAndLoops); }
 
+TEST_CASE("arguments of macros: elements by reference, commas may be left out", "[lang]") {
+  // clang-format off
+  const Row rows[] = {
+      {"#macro M(Z) #local Z=9; #end #declare A=array[3]{1,2,3}; M(A[1]) P(A[1])", "9.000000000000"},
+      {"#macro M(Z) #declare Z=Z+1; #end #declare A=array[2][2]{{1,2},{3,4}}; #for(I,0,1) M(A[I][1]) M(A[I][1]) #end P(A[0][1]) P(A[1][1])", "4.000000000000|6.000000000000"},
+      {"#macro N(Y) #declare Y=7; #end #macro M(Z) N(Z) #end #declare A=array[2]{1,2}; M(A[1]) P(A[1])", "7.000000000000"},
+      {"#declare A=array[2]{array[2]{1,2},array[2]{3,4}}; #macro M(Z) #declare Z[1]=9; #end M(A[1]) P(A[1][1])", "9.000000000000"},
+      {"#macro M(Z) P(Z) #end #declare A=array[2]{1,2}; M(A[1]+1) M(A[0]*2) M(-A[1])", "3.000000000000|2.000000000000|-2.000000000000"},
+      {"#declare A=array[2]{1,2}; #declare B=A; #macro M(Z) #declare Z=8; #end M(A[1]) P(A[1]) P(B[1])", "8.000000000000|2.000000000000"},
+      {"#declare A=array[2]{x,y}; #macro M(Z) #declare Z=z; #end M(A[1]) Q(A[1])", "0.000000000,0.000000000,1.000000000"},
+      {"#declare A=array[2]{1,2}; #macro M(Z) #undef Z #end M(A[1]) P(A[1])", "2.000000000000"},
+      {"#declare Z=array[3]{1,2,3}; #macro M() #local Z[1]=9; P(Z[1]) #end M() P(Z[1])", "2.000000000000|2.000000000000"},
+      {"#macro N() #local Z[1]=9; #end #macro M() #local Z=array[3]{1,2,3}; N() P(Z[1]) #end M()", "2.000000000000"},
+      {"#macro M(Z) #local Z[1]=9; #end #declare A=array[3]{1,2,3}; M(A) P(A[1])", "9.000000000000"},
+      {"#macro M(A B) P(A+B) #end M(1 2)", "3.000000000000"},
+      {"#macro M(A,B) P(A+B) #end M(1 2)", "3.000000000000"},
+      {"#macro M(A,B) P(A-B) #end M(1,2,)", "-1.000000000000"},
+      {"#macro M(A B) #declare A=5; #end #declare X=1; #declare Y=2; M(X Y) P(X)", "1.000000000000"},
+      {"#macro M(A B) #declare B=5; #end #declare X=1; #declare Y=2; M(X Y) P(Y)", "5.000000000000"},
+      {"#macro M(A B) #declare A=5; #end #declare X=array[2]{1,2}; #declare Y=2; M(X[0] Y) P(X[0])", "1.000000000000"},
+      {"#macro M(A B) P(A-B) #end M((1) (2))", "-1.000000000000"},
+      {"#macro M(A B) Q(A+B) #end M(<1,2,3> <4,5,6>)", "5.000000000,7.000000000,9.000000000"},
+      {"#macro M(A B) S(concat(A,B)) #end M(\"a\" \"b\")", "ab"},
+      {"#macro M(A B C) P(A+B+C) #end M(1 2,3)", "6.000000000000"},
+  };
+  // clang-format on
+  checkRows(rows);
+}
+
 TEST_CASE("indices are rounded down with POV-Ray's tolerance", "[lang]") {
   const Row rows[] = {
       {"#declare Z=array[3]{1,2,3}; P(Z[1-1e-9]) P(Z[1-1e-11]) P(Z[-1e-11]) P(Z[2.999])",
