@@ -34,6 +34,13 @@ Operand ExpressionParser::splineCall(Operand of) {
               operands);
 }
 
+/// In functions u is another name for x, and v for y.
+static bool areAlike(Word a, Word b) {
+  const auto isX = [](Word w) { return w == Word::x || w == Word::u; };
+  const auto isY = [](Word w) { return w == Word::y || w == Word::v; };
+  return (isX(a) && isX(b)) || (isY(a) && isY(b));
+}
+
 /// The slot of a parameter or of a counter of the function that is being read.
 std::optional<int> ExpressionParser::slotOf(const Name* name) const {
   if (!function_) return {};
@@ -41,10 +48,9 @@ std::optional<int> ExpressionParser::slotOf(const Name* name) const {
   const int counter = int(std::find_if(counters_.begin(), counters_.end(),
                                        [name](const Counter& c) { return c.name == name; }) -
                           counters_.begin());
-  const int parameter =
-      int(std::find(parameters.begin(), parameters.end(), name) - parameters.begin());
   if (counter < int(counters_.size())) return int(parameters.size()) + counter;
-  if (parameter < int(parameters.size())) return parameter;
+  for (std::size_t i = parameters.size(); i-- > 0;)
+    if (parameters[i] == name || areAlike(parameters[i]->word, name->word)) return int(i);
   return {};
 }
 

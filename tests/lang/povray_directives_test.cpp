@@ -113,6 +113,16 @@ TEST_CASE("arguments of macros: elements by reference, commas may be left out", 
   checkRows(rows);
 }
 
+TEST_CASE("in functions u and v are x and y", "[lang]") {
+  const Row rows[] = {{"#declare F=function{u+2*v+x} P(F(1,2,3))", "6.000000000000"},
+                      {"#declare F=function(x,y){u+2*v} P(F(1,2))", "5.000000000000"},
+                      {"#declare F=function(u,v){x+2*y} P(F(1,2))", "5.000000000000"},
+                      {"#declare F=function(a,x){u} P(F(1,2))", "2.000000000000"},
+                      {"#declare F=function(x,u){x+10*u} P(F(1,2))", "22.000000000000"},
+                      {"#declare F=function(u){x} P(F(4))", "4.000000000000"}};
+  checkRows(rows);
+}
+
 TEST_CASE("indices are rounded down with POV-Ray's tolerance", "[lang]") {
   const Row rows[] = {
       {"#declare Z=array[3]{1,2,3}; P(Z[1-1e-9]) P(Z[1-1e-11]) P(Z[-1e-11]) P(Z[2.999])",
