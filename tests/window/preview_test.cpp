@@ -319,7 +319,7 @@ TEST_CASE("more samples start again where footprints go by their number", "[wind
 
 TEST_CASE("`vestige render` goes on from a kept picture, with the camera in hand",
           "[window][preview]") {
-  Bench b(scene("rgb <0.2, 0.5, 0.9>", 1 << 20));
+  Bench b(scene("<0.2, 0.5, 0.9>", 1 << 20));
   REQUIRE(b.comes([&] { return b.preview->open() != nullptr; }));
   const auto open = b.preview->open();
   const auto view = viewOf(open->camera, open->cameraSchema);
@@ -344,7 +344,7 @@ TEST_CASE("`vestige render` goes on from a kept picture, with the camera in hand
   REQUIRE(std::sscanf(news.c_str(), "kept %d samples", &samples) == 1);
   b.preview.reset();
 
-  std::string text = scene("rgb <0.2, 0.5, 0.9>", 16);
+  std::string text = scene("<0.2, 0.5, 0.9>", 16);
   text.replace(0, text.find('\n') + 1, cameraText(moved));
   b.folder.write("a.scene", text);
   const std::string more = std::to_string(samples + 8);
@@ -364,7 +364,7 @@ TEST_CASE("`vestige render` goes on from a kept picture, with the camera in hand
 
 TEST_CASE("a picture is kept though the window closes, and not in place of something else",
           "[window][preview]") {
-  Bench b(scene("rgb 0.5", 1 << 20));
+  Bench b(scene("0.5", 1 << 20));
   REQUIRE(b.comes([&] {
     const auto s = b.preview->snapshot();
     return s && s->samples >= 4;
