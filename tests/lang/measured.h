@@ -14,8 +14,13 @@ struct Measured {
   std::string errors;    ///< "line:column: message", one a line; line 0: without a place
 };
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)  // these take several times both
+inline constexpr int kMostSeconds = 200;
+inline constexpr double kMostMegabytes = 3 * 1024;
+#else
 inline constexpr int kMostSeconds = 30;
 inline constexpr double kMostMegabytes = 1024;
+#endif
 
 Measured measured(const std::string& text, const Options& options = {});
 
